@@ -1,0 +1,4 @@
+//! chainlight: an offline renderer for difficult light.
+
+pub mod color;
+pub mod math;

@@ -1,0 +1,3 @@
+//! The program: parse arguments, call one command, print one error.
+
+fn main() {}

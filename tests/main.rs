@@ -1,0 +1,1 @@
+//! One integration-test binary; each concern is a module beside this file.
