@@ -1,0 +1,76 @@
+//! Primitives as the tree's leaves keep them: everything an intersection needs, in tree order, one behind the other.
+
+use super::octahedral;
+use super::surface::InstanceShape;
+use super::triangle::RayFrame;
+use super::{Geometry, sphere};
+use glam::{Vec2, Vec3, Vec3A};
+use obvhs::aabb::Aabb;
+
+/// A triangle or a sphere, with the names a hit reports.
+#[derive(Clone, Copy, Debug)]
+pub struct LeafPrimitive {
+    /// A triangle's corners; a sphere keeps its centre in the first and its radius in the second's x.
+    corners: [Vec3; 3],
+    /// Instance number.
+    pub instance: u32,
+    /// Primitive number inside the instance.
+    pub primitive: u32,
+    is_sphere: bool,
+}
+
+impl LeafPrimitive {
+    /// Primitive `primitive` of instance `instance`; `None` if there is no such primitive.
+    pub fn new(geometry: &Geometry, instance: u32, primitive: u32) -> Option<Self> {
+        let row = geometry.instances.get(instance as usize)?;
+        let (corners, is_sphere) = match row.shape {
+            InstanceShape::Mesh { .. } => (geometry.corners(row, primitive)?, false),
+            InstanceShape::Sphere { center, radius } => ([center, Vec3::splat(radius), Vec3::ZERO], true),
+        };
+        Some(Self { corners, instance, primitive, is_sphere })
+    }
+
+    /// Whether the primitive has any area, in f64.
+    pub fn has_area(&self) -> bool {
+        let [a, b, c] = self.corners.map(Vec3::as_dvec3);
+        self.is_sphere || (b - a).cross(c - a).length_squared() > 0.0
+    }
+
+    /// The primitive's box, rounded outwards.
+    pub fn bounds(&self) -> Aabb {
+        let [a, b, c] = self.corners;
+        let (min, max) = if self.is_sphere {
+            ((a - b).to_array().map(f32::next_down).into(), (a + b).to_array().map(f32::next_up).into())
+        } else {
+            (a.min(b).min(c), a.max(b).max(c))
+        };
+        Aabb::new(Vec3A::from(min), Vec3A::from(max))
+    }
+
+    /// The nearest hit in front of the origin: distance and coordinates on the primitive.
+    #[inline]
+    pub fn hit(&self, ray: &RayFrame) -> Option<(f64, Vec2)> {
+        if self.is_sphere {
+            let [center, radius, _] = self.corners;
+            let roots = sphere::cross(ray, center, radius.x)?;
+            let t = roots.into_iter().find(|&t| t > 0.0)?;
+            let outward = ray.origin + ray.direction * t - center.as_dvec3();
+            Some((t, octahedral::encode(outward)))
+        } else {
+            let crossing = ray.cross(self.corners)?;
+            (crossing.t > 0.0).then(|| (crossing.t, Vec2::new(crossing.u as f32, crossing.v as f32)))
+        }
+    }
+
+    /// Whether the segment from the ray's origin to origin + direction meets the primitive, ends excluded.
+    #[inline]
+    pub fn blocks(&self, ray: &RayFrame) -> bool {
+        let between = |t: f64| t > 0.0 && t < 1.0;
+        if self.is_sphere {
+            let [center, radius, _] = self.corners;
+            sphere::cross(ray, center, radius.x).is_some_and(|roots| roots.into_iter().any(between))
+        } else {
+            ray.cross(self.corners).is_some_and(|crossing| between(crossing.t))
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Geometry: shapes in world space, the tree over them, and queues of rays and segments traced against it.
+//!
+//! The one public way to trace is a queue ([`Geometry::closest_hits`], [`Geometry::transmittances`]): structure of
+//! arrays in, structure of arrays out, so that whatever walks the tree may reorder and interleave rays. A hit is the
+//! lexicographic minimum of (distance, instance, primitive), whatever order the tree is walked in. Intersections are
+//! computed in f64 from f32 vertices and origins: near hits are found at any scale, shared edges do not leak.
+
+mod leaf;
+mod octahedral;
+mod queue;
+mod sphere;
+mod surface;
+mod trace;
+mod tree;
+mod triangle;
+
+pub use queue::{
+    HitColumns, HitDistance, HitInstance, HitPrimitive, HitUv, NO_HIT, RayColumns, RayDirection, RayOrigin,
+    SegmentColumns, SegmentTarget, SegmentTransmittance,
+};
+pub use surface::{Hit, Instance, InstanceShape, SurfacePoint, offset_origin};
+
+use glam::Vec3;
+use leaf::LeafPrimitive;
+use tree::Tree;
+
+/// No light: this primitive does not emit.
+pub const NOT_EMITTING: u32 = u32::MAX;
+
+/// All shapes of a scene in world space, as tables, and the tree over their primitives. Read-only while rendering.
+#[derive(Debug, Default)]
+pub struct Geometry {
+    /// One row per shape of the scene.
+    pub(crate) instances: Vec<Instance>,
+    /// Vertex positions of all meshes, world space.
+    pub(crate) positions: Vec<Vec3>,
+    /// Vertex normals of those meshes that have any, world space.
+    pub(crate) normals: Vec<Vec3>,
+    /// Corner indices of all triangles, relative to their instance's first vertex.
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// Material of every primitive (triangles and spheres), by global primitive number.
+    pub(crate) materials: Vec<u32>,
+    /// Light of every primitive, or [`NOT_EMITTING`], by global primitive number.
+    pub(crate) lights: Vec<u32>,
+    tree: Tree,
+}
+
+impl Geometry {
+    /// Builds the tree over all primitives. Primitives without area are left out of it: no ray meets them.
+    pub fn build_tree(&mut self) {
+        let mut leaves = Vec::with_capacity(self.materials.len());
+        for (number, instance) in self.instances.iter().enumerate() {
+            for primitive in 0..instance.primitive_count() {
+                let leaf = LeafPrimitive::new(self, number as u32, primitive);
+                leaves.extend(leaf.filter(LeafPrimitive::has_area));
+            }
+        }
+        self.tree = Tree::build(leaves);
+    }
+
+    /// Number of primitives, those without area included.
+    #[must_use]
+    pub fn primitive_count(&self) -> usize {
+        self.materials.len()
+    }
+
+    /// Number of instances.
+    #[must_use]
+    pub fn instance_count(&self) -> usize {
+        self.instances.len()
+    }
+
+    /// Memory of the tree and of the primitives in its leaves, in bytes.
+    #[must_use]
+    pub fn tree_bytes(&self) -> usize {
+        self.tree.bytes()
+    }
+
+    /// The box around everything, or `None` for an empty scene.
+    #[must_use]
+    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        self.tree.bounds()
+    }
+}

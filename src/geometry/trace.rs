@@ -1,0 +1,69 @@
+//! Tracing queues: closest hits of rays, transmittance of segments.
+
+use super::Geometry;
+use super::queue::{HitColumns, NO_HIT, RayColumns, SegmentColumns, SegmentTransmittance};
+use super::triangle::RayFrame;
+use super::tree::Walk;
+use crate::color::Rgb;
+use crate::table::Rows;
+use glam::Vec2;
+
+/// A hit as it is compared: the least (distance, instance, primitive) wins.
+struct Nearest {
+    distance: f32,
+    instance: u32,
+    primitive: u32,
+    uv: Vec2,
+}
+
+impl Geometry {
+    /// Writes the closest hit of every ray: the lexicographic minimum of (distance, instance, primitive).
+    pub fn closest_hits(&self, rays: RayColumns<'_>, hits: HitColumns<'_>) {
+        for i in 0..rays.len {
+            let nearest = self.closest_hit(&RayFrame::new(rays.origin.at(i), rays.direction.at(i).as_dvec3()));
+            hits.distance.put(i, nearest.distance);
+            hits.instance.put(i, nearest.instance);
+            hits.primitive.put(i, nearest.primitive);
+            hits.uv.put(i, nearest.uv);
+        }
+    }
+
+    /// Writes the share of light that passes along every segment, ends excluded. Every surface is opaque so far, so it
+    /// is one or zero.
+    pub fn transmittances(&self, segments: SegmentColumns<'_>, transmittance: &mut [SegmentTransmittance]) {
+        for i in 0..segments.len {
+            let origin = segments.origin.at(i);
+            // In f64, so that a segment to a far target ends where the target is.
+            let span = segments.target.at(i).as_dvec3() - origin.as_dvec3();
+            let blocked = self.blocked(&RayFrame::new(origin, span));
+            transmittance.put(i, if blocked { Rgb::BLACK } else { Rgb::ONE });
+        }
+    }
+
+    #[inline]
+    fn closest_hit(&self, ray: &RayFrame) -> Nearest {
+        let mut nearest = Nearest { distance: f32::INFINITY, instance: NO_HIT, primitive: NO_HIT, uv: Vec2::ZERO };
+        self.tree.walk(ray, f32::INFINITY, |leaf| {
+            for primitive in leaf {
+                let Some((t, uv)) = primitive.hit(ray) else { continue };
+                let key = (t as f32, primitive.instance, primitive.primitive);
+                if key < (nearest.distance, nearest.instance, nearest.primitive) {
+                    (nearest.distance, nearest.instance, nearest.primitive) = key;
+                    nearest.uv = uv;
+                }
+            }
+            Walk::Within(nearest.distance)
+        });
+        nearest
+    }
+
+    #[inline]
+    fn blocked(&self, ray: &RayFrame) -> bool {
+        let mut blocked = false;
+        self.tree.walk(ray, 1.0, |leaf| {
+            blocked = leaf.iter().any(|primitive| primitive.blocks(ray));
+            if blocked { Walk::Stop } else { Walk::Within(1.0) }
+        });
+        blocked
+    }
+}

@@ -1,0 +1,208 @@
+//! The tree over primitives: built by obvhs, kept as pairs of sibling boxes, one cache line each.
+
+use super::leaf::LeafPrimitive;
+use super::triangle::RayFrame;
+use crate::tolerance::{BOX_EXIT_SLACK, CULL_SLACK};
+use glam::Vec3;
+use obvhs::BvhBuildParams;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2;
+use obvhs::bvh2::node::Bvh2Node;
+use std::time::Duration;
+
+/// Two sibling boxes and where they lead.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+struct Pair {
+    /// `[axis][child]`.
+    min: [[f32; 2]; 3],
+    max: [[f32; 2]; 3],
+    /// First primitive of a leaf, or the pair of an inner child.
+    first: [u32; 2],
+    /// Primitives of a leaf; 0 for an inner child.
+    count: [u32; 2],
+}
+
+impl Pair {
+    /// Two boxes that no ray meets.
+    const EMPTY: Self =
+        Self { min: [[f32::INFINITY; 2]; 3], max: [[f32::NEG_INFINITY; 2]; 3], first: [0; 2], count: [1; 2] };
+
+    fn set_box(&mut self, side: usize, node: &Bvh2Node) {
+        let (min, max) = (node.aabb().min.to_array(), node.aabb().max.to_array());
+        for axis in 0..3 {
+            self.min[axis][side] = min[axis];
+            self.max[axis][side] = max[axis];
+        }
+    }
+}
+
+/// A binary tree of boxes over primitives.
+#[derive(Debug, Default)]
+pub struct Tree {
+    pairs: Vec<Pair>,
+    primitives: Vec<LeafPrimitive>,
+}
+
+/// Whether a walk goes on, and up to which distance.
+pub enum Walk {
+    /// Look at boxes up to this distance only.
+    Within(f32),
+    /// Nothing more to find.
+    Stop,
+}
+
+impl Tree {
+    /// Builds a tree. The order of `primitives` shapes it, threads do not.
+    pub fn build(primitives: Vec<LeafPrimitive>) -> Self {
+        if primitives.is_empty() {
+            return Self::default();
+        }
+        let boxes: Vec<_> = primitives.iter().map(LeafPrimitive::bounds).collect();
+        let mut build_time = Duration::ZERO;
+        let bvh = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut build_time);
+        let in_order = bvh.primitive_indices.iter().map(|&i| primitives[i as usize]).collect();
+        Self { pairs: pair_up(&bvh), primitives: in_order }
+    }
+
+    /// Memory in bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.pairs.as_slice()) + size_of_val(self.primitives.as_slice())
+    }
+
+    /// The box around everything, or `None` if the tree is empty.
+    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        let root = self.pairs.first()?;
+        let corner = |boxes: &[[f32; 2]; 3], pick: fn(f32, f32) -> f32| {
+            Vec3::from_array(boxes.map(|[left, right]| pick(left, right)))
+        };
+        Some((corner(&root.min, f32::min), corner(&root.max, f32::max)))
+    }
+
+    /// Shows `visit` the primitives of every leaf whose box the ray meets within `limit` (in units of the direction's
+    /// length), nearer boxes first; `visit` answers how far it still wants to look.
+    #[inline]
+    pub fn walk(&self, ray: &RayFrame, mut limit: f32, mut visit: impl FnMut(&[LeafPrimitive]) -> Walk) {
+        if self.pairs.is_empty() {
+            return;
+        }
+        let inverse = ray.direction.recip().as_vec3().to_array();
+        let origin = ray.origin.as_vec3().to_array();
+        let mut stack = Stack::default();
+        let mut next = Some(Entry { first: 0, count: 0, distance: 0.0 });
+        while let Some(entry) = next {
+            if entry.distance > limit * CULL_SLACK {
+                next = stack.pop();
+                continue;
+            }
+            if entry.count > 0 {
+                let first = entry.first as usize;
+                match visit(&self.primitives[first..first + entry.count as usize]) {
+                    Walk::Within(nearer) => limit = nearer,
+                    Walk::Stop => return,
+                }
+                next = stack.pop();
+                continue;
+            }
+            let pair = &self.pairs[entry.first as usize];
+            let entries = [0, 1].map(|side| Entry {
+                first: pair.first[side],
+                count: pair.count[side],
+                distance: box_distance(pair, side, origin, inverse, limit),
+            });
+            let (near, far) =
+                if entries[1].distance < entries[0].distance { (entries[1], entries[0]) } else { (entries[0], entries[1]) };
+            if far.distance < f32::INFINITY {
+                stack.push(far);
+            }
+            next = if near.distance < f32::INFINITY { Some(near) } else { stack.pop() };
+        }
+    }
+}
+
+/// The distance at which a ray enters a child's box, or infinity if it misses it or enters beyond `limit`.
+///
+/// 0 · ∞ (a ray inside a slab's plane, parallel to it) is not a number; every comparison is written so that it leaves
+/// the interval as it was.
+#[inline(always)]
+fn box_distance(pair: &Pair, side: usize, origin: [f32; 3], inverse: [f32; 3], limit: f32) -> f32 {
+    let (mut enter, mut exit) = (0.0, f32::INFINITY);
+    for axis in 0..3 {
+        let to_min = (pair.min[axis][side] - origin[axis]) * inverse[axis];
+        let to_max = (pair.max[axis][side] - origin[axis]) * inverse[axis];
+        let (near, far) = if inverse[axis].is_sign_negative() { (to_max, to_min) } else { (to_min, to_max) };
+        enter = if near > enter { near } else { enter };
+        exit = if far < exit { far } else { exit };
+    }
+    if enter <= exit * BOX_EXIT_SLACK && enter <= limit * CULL_SLACK { enter } else { f32::INFINITY }
+}
+
+#[derive(Clone, Copy, Default)]
+struct Entry {
+    first: u32,
+    count: u32,
+    distance: f32,
+}
+
+/// Boxes still to visit: a fixed array, and the heap for the rare tree that is deeper.
+struct Stack {
+    fixed: [Entry; Self::FIXED],
+    len: usize,
+    spill: Vec<Entry>,
+}
+
+impl Default for Stack {
+    #[inline]
+    fn default() -> Self {
+        Self { fixed: [Entry::default(); Self::FIXED], len: 0, spill: Vec::new() }
+    }
+}
+
+impl Stack {
+    const FIXED: usize = 48;
+
+    #[inline]
+    fn push(&mut self, entry: Entry) {
+        if self.len < Self::FIXED {
+            self.fixed[self.len] = entry;
+        } else {
+            self.spill.push(entry);
+        }
+        self.len += 1;
+    }
+
+    #[inline]
+    fn pop(&mut self) -> Option<Entry> {
+        self.len = self.len.checked_sub(1)?;
+        if self.len < Self::FIXED { Some(self.fixed[self.len]) } else { self.spill.pop() }
+    }
+}
+
+/// Siblings of obvhs' tree, depth first, so that a near child often lies on the next cache line.
+fn pair_up(bvh: &Bvh2) -> Vec<Pair> {
+    let root = &bvh.nodes[0];
+    let mut pairs = Vec::with_capacity(bvh.nodes.len() / 2 + 1);
+    pairs.push(Pair::EMPTY);
+    if root.is_leaf() {
+        pairs[0].set_box(0, root);
+        pairs[0].first[0] = root.first_index;
+        pairs[0].count[0] = root.prim_count;
+        return pairs;
+    }
+    let mut todo = vec![(0, root.first_index)];
+    while let Some((pair, children)) = todo.pop() {
+        for side in 0..2 {
+            let node = &bvh.nodes[children as usize + side];
+            let mut first = node.first_index;
+            if !node.is_leaf() {
+                first = pairs.len() as u32;
+                pairs.push(Pair::EMPTY);
+                todo.push((first as usize, node.first_index));
+            }
+            pairs[pair].set_box(side, node);
+            pairs[pair].first[side] = first;
+            pairs[pair].count[side] = node.prim_count;
+        }
+    }
+    pairs
+}

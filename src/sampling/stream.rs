@@ -1,0 +1,134 @@
+//! Keyed random streams: every draw of a render is named, so that no state has to be stored or replayed.
+//!
+//! The key (seed, chain, step, purpose, depth) is mixed to the 64-bit state of a [`Pcg32`]; its increment is a
+//! bijective mix of the chain, so two chains never share a stream. (Used raw, step and chain as PCG's state and stream
+//! correlate neighbours strongly: PCG streams with related increments are related sequences. The mixing removes it.)
+//! Draws of one path happen in different systems and in any order, so each has its own purpose and depth.
+
+use rand_core::Rng;
+use rand_pcg::Pcg32;
+
+/// What a draw is for. Every system that draws has a purpose of its own, so that no two draw the same numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Purpose {
+    /// Where on the film: offset inside the reconstruction filter.
+    Film = 0,
+    /// Choice of a light and of a point on it, for the vertex at the given depth.
+    Light = 1,
+    /// Choice of a scattered direction at the vertex of the given depth.
+    Scatter = 2,
+    /// Russian roulette after the vertex of the given depth.
+    Roulette = 3,
+}
+
+/// The part of a key that one chain's step has in common: (seed, chain, step), mixed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StreamKey {
+    base: u64,
+    chain: u64,
+}
+
+/// A bijection of 64-bit integers that flips every output bit with probability near one half for any flipped input bit
+/// (the finaliser of SplitMix64; Steele, Lea and Flood 2014, with Stafford's "Mix13" constants).
+const fn mix(mut z: u64) -> u64 {
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
+/// Steps between consecutive inputs of [`mix`]: 2⁶⁴ divided by the golden ratio, odd.
+const WEYL: u64 = 0x9E37_79B9_7F4A_7C15;
+
+impl StreamKey {
+    /// The key of `step` of `chain` in the render with `seed`. `chain` is the global chain number.
+    #[inline]
+    #[must_use]
+    pub const fn new(seed: u64, chain: u32, step: u64) -> Self {
+        let chain = chain as u64;
+        let seeded = mix(seed.wrapping_add(WEYL));
+        let chained = mix(seeded ^ chain.wrapping_mul(WEYL));
+        Self { base: mix(chained.wrapping_add(step.wrapping_mul(WEYL))), chain }
+    }
+
+    /// The key's mixed 64 bits, as they are kept in a column.
+    #[inline]
+    #[must_use]
+    pub const fn bits(self) -> u64 {
+        self.base
+    }
+
+    /// The key whose [`bits`](Self::bits) were kept in a column for `chain`.
+    #[inline]
+    #[must_use]
+    pub const fn from_bits(base: u64, chain: u32) -> Self {
+        Self { base, chain: chain as u64 }
+    }
+
+    /// The stream of draws for `purpose` at vertex `depth`.
+    #[inline]
+    #[must_use]
+    pub fn stream(self, purpose: Purpose, depth: u32) -> Stream {
+        let named = ((purpose as u64) << 32) | u64::from(depth);
+        let state = mix(self.base ^ named.wrapping_add(1).wrapping_mul(WEYL));
+        Stream { generator: Pcg32::new(state, mix(self.chain ^ WEYL)) }
+    }
+}
+
+/// A stream of random numbers.
+#[derive(Clone, Debug)]
+pub struct Stream {
+    generator: Pcg32,
+}
+
+impl Stream {
+    /// A uniform number in [0, 1): a multiple of 2⁻²⁴, never 1.
+    #[inline]
+    pub fn next_f32(&mut self) -> f32 {
+        (self.generator.next_u32() >> 8) as f32 * (1.0 / 16_777_216.0)
+    }
+
+    /// Two uniform numbers in [0, 1).
+    #[inline]
+    pub fn next_pair(&mut self) -> [f32; 2] {
+        let first = self.next_f32();
+        [first, self.next_f32()]
+    }
+
+    /// A uniform number in [0, 1), a multiple of 2⁻³²: fine enough to choose among millions of lights.
+    #[inline]
+    pub fn next_f64(&mut self) -> f64 {
+        f64::from(self.generator.next_u32()) * (1.0 / 4_294_967_296.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn uniform_numbers_stay_below_one() {
+        assert!((u32::MAX >> 8) as f32 * (1.0 / 16_777_216.0) < 1.0);
+        assert!(f64::from(u32::MAX) * (1.0 / 4_294_967_296.0) < 1.0);
+    }
+
+    #[test]
+    fn every_part_of_the_key_changes_the_stream() {
+        let first = |seed, chain, step, purpose, depth| {
+            StreamKey::new(seed, chain, step).stream(purpose, depth).generator.next_u32()
+        };
+        let reference = first(1, 2, 3, Purpose::Light, 4);
+        assert_eq!(reference, first(1, 2, 3, Purpose::Light, 4));
+        assert_ne!(reference, first(2, 2, 3, Purpose::Light, 4));
+        assert_ne!(reference, first(1, 3, 3, Purpose::Light, 4));
+        assert_ne!(reference, first(1, 2, 4, Purpose::Light, 4));
+        assert_ne!(reference, first(1, 2, 3, Purpose::Scatter, 4));
+        assert_ne!(reference, first(1, 2, 3, Purpose::Light, 5));
+    }
+
+    #[test]
+    fn a_key_survives_its_column() {
+        let key = StreamKey::new(9, 77, 5);
+        assert_eq!(key, StreamKey::from_bits(key.bits(), 77));
+    }
+}

@@ -1,0 +1,24 @@
+//! Every tolerance of the renderer, in one place, each with its reason and the test that guards it. All are relative:
+//! they scale with the coordinates or the distances at hand, so that a scene renders alike at any size.
+
+/// How far a ray's origin is moved off its surface, in units of the rounding error of the surface point:
+/// 2⁻²⁴ · Σ|nᵢ||pᵢ|. One unit covers the rounding of the point itself, one the rounding of the moved origin, and as much
+/// again is margin. Guarded by `rays_that_leave_a_surface_never_hit_it_again`.
+pub const ORIGIN_OFFSET_UNITS: f32 = 4.0;
+
+/// The least offset of an origin, relative to the size of the shape: 2⁻⁴⁰. Intersections are computed in f64 (2⁻⁵³), so
+/// this keeps a surface through the world's origin, whose points round exactly, from being hit by its own rays.
+/// Guarded by `rays_that_leave_a_surface_never_hit_it_again`.
+pub const ORIGIN_OFFSET_FLOOR: f32 = 1.0 / (1u64 << 40) as f32;
+
+/// A box is entered if the computed entry is below the computed exit times this: 1 + 2γ₃ for f32, the bound of Ize
+/// (2013, "Robust BVH ray traversal") under which no hit box is missed. Guarded by `the_tree_finds_what_a_scan_finds`.
+pub const BOX_EXIT_SLACK: f32 = 1.0 + 2.0 * (3.0 * F32_ROUNDING) / (1.0 - 3.0 * F32_ROUNDING);
+
+/// A box farther than the nearest hit times this is skipped. The slack, four roundings, covers the difference between
+/// a box's distance in f32 and a hit's distance in f64, so that hits that tie are all seen and the least primitive wins
+/// whatever order the tree is walked in. Guarded by `coincident_triangles_return_the_lowest_primitive`.
+pub const CULL_SLACK: f32 = 1.0 + 4.0 * F32_ROUNDING;
+
+/// Half the distance from 1 to the next f32: the largest relative error of one rounding.
+const F32_ROUNDING: f32 = f32::EPSILON * 0.5;
