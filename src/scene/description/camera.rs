@@ -1,0 +1,44 @@
+//! The `camera` block.
+
+use serde::{Deserialize, Serialize};
+
+/// A camera. World space, right-handed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename = "camera")]
+pub enum CameraDescription {
+    /// A pinhole camera: everything is in focus.
+    Perspective {
+        /// The pinhole, in scene units.
+        origin: [f32; 3],
+        /// A point that projects to the centre of the film, in scene units; must differ from `origin`.
+        target: [f32; 3],
+        /// A direction that points up in the picture; any length but zero, not parallel to the view.
+        /// Default (0, 1, 0).
+        #[serde(default = "plus_y")]
+        up: [f32; 3],
+        /// Full angle of view in degrees, in (0, 180), across the side of the film that `fov_axis` names.
+        fov: f32,
+        /// Which side of the film `fov` spans. Default `Vertical`.
+        #[serde(default)]
+        fov_axis: FovAxis,
+    },
+}
+
+/// The side of the film that an angle of view spans.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename = "field of view axis")]
+pub enum FovAxis {
+    /// From the left edge to the right.
+    Horizontal,
+    /// From the bottom edge to the top. The default.
+    #[default]
+    Vertical,
+    /// Across the shorter side.
+    Smaller,
+    /// Across the longer side.
+    Larger,
+}
+
+fn plus_y() -> [f32; 3] {
+    [0.0, 1.0, 0.0]
+}

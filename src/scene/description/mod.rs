@@ -1,0 +1,43 @@
+//! What a scene file says, as plain data: one serde type per block of the format. The same types read RON and JSON.
+//!
+//! Nothing here is checked beyond its shape (names, types, counts): [`validate`](crate::scene::validate) holds the
+//! values against their ranges, so that an error can point at the place in the file.
+
+mod camera;
+mod film;
+mod material;
+mod settings;
+mod shape;
+mod unique_map;
+
+pub use camera::{CameraDescription, FovAxis};
+pub use film::{FilmDescription, FilterDescription, MAX_FILM_PIXELS, MAX_FILM_SIDE};
+pub use material::MaterialDescription;
+pub use settings::{DEFAULT_MAX_DEPTH, MAX_DEPTH_LIMIT, SettingsDescription};
+pub use shape::{ShapeDescription, ShapeKind, TransformStep};
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The version of the format that this program reads and writes.
+pub const FORMAT_VERSION: u32 = 1;
+
+/// A whole scene file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename = "scene")]
+pub struct SceneDescription {
+    /// Version of the format; must be [`FORMAT_VERSION`]. Required, so that a later format can tell old files.
+    pub version: u32,
+    /// How to render, where the command line does not say otherwise. Default: see [`SettingsDescription`].
+    #[serde(default)]
+    pub settings: SettingsDescription,
+    /// The camera. Required.
+    pub camera: CameraDescription,
+    /// The film behind it. Required.
+    pub film: FilmDescription,
+    /// Materials by name. Default: none. Two of the same name are an error.
+    #[serde(default, deserialize_with = "unique_map::deserialize")]
+    pub materials: BTreeMap<String, MaterialDescription>,
+    /// Shapes, in the order in which they become instances. Required.
+    pub shapes: Vec<ShapeDescription>,
+}

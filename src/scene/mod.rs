@@ -1,0 +1,19 @@
+//! The scene: from a file on disk to validated, flattened shapes in world space.
+
+pub mod description;
+pub mod error;
+pub mod flatten;
+mod lex;
+mod locate;
+pub mod mesh;
+pub mod read;
+mod syntax;
+
+pub use description::{
+    CameraDescription, FilmDescription, FilterDescription, FovAxis, MaterialDescription, SceneDescription,
+    SettingsDescription, ShapeDescription, ShapeKind, TransformStep,
+};
+pub use error::{SceneError, SceneWarning};
+pub use flatten::{Emission, Flattened, Geometry, Instance};
+pub use mesh::{MAX_COORDINATE, Mesh, triangle_cross};
+pub use read::{Format, SceneSource, Step, parse_scene, read_scene};
