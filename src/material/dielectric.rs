@@ -1,0 +1,61 @@
+//! `Dielectric`: a smooth interface between two clear media, such as glass in air: reflects and refracts.
+//!
+//! | parameter | meaning | unit | default |
+//! |---|---|---|---|
+//! | `interior_ior` | index of refraction behind the surface | none, [0.1, 10] | required |
+//! | `exterior_ior` | index of refraction in front of it, where the geometric normal points | none, [0.1, 10] | 1 |
+//! | `reflectance` | scale of the reflection | none, [0, 1] per channel | 1 |
+//! | `transmittance` | scale of the refraction | none, [0, 1] per channel | 1 |
+//!
+//! Use it on closed shapes: glass, water, gems; a single sheet of it is an interface, not a pane. It is discrete, and a
+//! caustic behind it is found by path tracing only where a path happens to meet the light. Radiance is scaled by the
+//! squared ratio of indices as it crosses (Veach 1997, §5.2); on the way out again the scale returns. An interface
+//! between equal indices is not there: it reflects nothing and bends nothing.
+
+use super::{Scattered, fresnel};
+use crate::color::Rgb;
+use glam::Vec3;
+
+/// One smooth interface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dielectric {
+    /// Interior over exterior index of refraction.
+    pub relative_ior: f32,
+    /// Scale of the reflection, per channel.
+    pub reflectance: Rgb,
+    /// Scale of the refraction, per channel.
+    pub transmittance: Rgb,
+}
+
+impl Dielectric {
+    /// Reflects or refracts, each with its share of the power; `u` decides. `None` exactly at grazing incidence.
+    #[inline]
+    #[must_use]
+    pub fn sample(&self, wi: Vec3, u: f32) -> Option<Scattered> {
+        if wi.z == 0.0 {
+            return None;
+        }
+        // From the side the path comes from to the other.
+        let relative_ior = if wi.z > 0.0 { self.relative_ior } else { 1.0 / self.relative_ior };
+        let fresnel = fresnel::dielectric(wi.z.abs(), relative_ior);
+        if u < fresnel.reflectance {
+            return Some(Scattered {
+                wo: Vec3::new(-wi.x, -wi.y, wi.z),
+                ratio: self.reflectance,
+                density: fresnel.reflectance,
+                discrete: true,
+                relative_ior: 1.0,
+            });
+        }
+        let inverse = 1.0 / relative_ior;
+        let wo = Vec3::new(-wi.x * inverse, -wi.y * inverse, fresnel.cos_transmitted.copysign(-wi.z));
+        Some(Scattered {
+            wo: wo.normalize(),
+            // Radiance spreads over a larger or smaller solid angle.
+            ratio: self.transmittance * (inverse * inverse),
+            density: 1.0 - fresnel.reflectance,
+            discrete: true,
+            relative_ior,
+        })
+    }
+}

@@ -1,0 +1,53 @@
+//! Fresnel's equations for unpolarised light.
+
+/// What a smooth interface between two dielectrics does with light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DielectricFresnel {
+    /// Share of power that is reflected.
+    pub reflectance: f32,
+    /// Cosine of the angle of refraction, positive; 0 under total internal reflection.
+    pub cos_transmitted: f32,
+}
+
+/// Reflectance and refraction angle at a dielectric interface.
+///
+/// `cos_incident` in [0, 1] is measured on the side the light path comes from; `relative_ior` is the index on the far
+/// side divided by that on the near side. An interface between equal indices reflects exactly nothing.
+#[inline]
+#[must_use]
+pub fn dielectric(cos_incident: f32, relative_ior: f32) -> DielectricFresnel {
+    let cos_i = cos_incident.clamp(0.0, 1.0);
+    if relative_ior == 1.0 {
+        return DielectricFresnel { reflectance: 0.0, cos_transmitted: cos_i };
+    }
+    // In f64: near the critical angle and for nearly equal indices f32 cancels.
+    let (ci, n) = (f64::from(cos_i), f64::from(relative_ior));
+    let sin2_t = (1.0 - ci * ci) / (n * n);
+    if sin2_t >= 1.0 {
+        return DielectricFresnel { reflectance: 1.0, cos_transmitted: 0.0 };
+    }
+    let ct = (1.0 - sin2_t).sqrt();
+    let perpendicular = (ci - n * ct) / (ci + n * ct);
+    let parallel = (n * ci - ct) / (n * ci + ct);
+    let reflectance = 0.5 * (perpendicular * perpendicular + parallel * parallel);
+    DielectricFresnel { reflectance: reflectance as f32, cos_transmitted: ct as f32 }
+}
+
+/// Share of power that a smooth conductor reflects, for the complex index `eta + i k` of the metal relative to the
+/// medium before it, at an angle of incidence whose cosine is `cos_incident`.
+#[inline]
+#[must_use]
+pub fn conductor(cos_incident: f32, eta: f32, k: f32) -> f32 {
+    let (c, eta, k) = (f64::from(cos_incident.clamp(0.0, 1.0)), f64::from(eta), f64::from(k));
+    let (c2, s2) = (c * c, 1.0 - c * c);
+    let (eta2, k2) = (eta * eta, k * k);
+    let t0 = eta2 - k2 - s2;
+    let a2_b2 = (t0 * t0 + 4.0 * eta2 * k2).sqrt();
+    let a = (0.5 * (a2_b2 + t0)).max(0.0).sqrt();
+    let perpendicular = (a2_b2 + c2 - 2.0 * a * c) / (a2_b2 + c2 + 2.0 * a * c);
+    let (t3, t4) = (c2 * a2_b2 + s2 * s2, 2.0 * a * c * s2);
+    let parallel = perpendicular * (t3 - t4) / (t3 + t4);
+    let reflectance = 0.5 * (perpendicular + parallel);
+    // 0/0 at grazing incidence on an index of 1 with no absorption: nothing is there to reflect.
+    if reflectance.is_nan() { 1.0 } else { reflectance.clamp(0.0, 1.0) as f32 }
+}
