@@ -18,6 +18,7 @@ pub use queue::{
     HitColumns, HitDistance, HitInstance, HitPrimitive, HitUv, NO_HIT, RayColumns, RayDirection, RayOrigin,
     SegmentColumns, SegmentTarget, SegmentTransmittance,
 };
+pub(crate) use surface::offset_distance;
 pub use surface::{Hit, Instance, InstanceShape, SurfacePoint, offset_origin};
 
 use glam::Vec3;

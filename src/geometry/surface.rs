@@ -2,7 +2,7 @@
 
 use super::{Geometry, octahedral};
 use crate::tolerance::{ORIGIN_OFFSET_FLOOR, ORIGIN_OFFSET_UNITS};
-use glam::{DVec3, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 
 /// One shape of the scene.
 #[derive(Clone, Copy, Debug)]
@@ -117,7 +117,7 @@ impl Geometry {
             position,
             geometric_normal,
             shading_normal: shading.as_vec3(),
-            offset: offset_distance(position, normal, size as f32),
+            offset: offset_distance(position, geometric_normal, size as f32),
             material: self.materials[global],
             light: self.lights[global],
         }
@@ -126,8 +126,8 @@ impl Geometry {
 
 /// How far a surface point may be off its surface, with margin: in proportion to its coordinates and, for points near
 /// the world's origin, to the size of the shape. See [`crate::tolerance`].
-fn offset_distance(position: Vec3, normal: DVec3, size: f32) -> f32 {
-    let rounding = normal.as_vec3().abs().dot(position.abs()) * (0.5 * f32::EPSILON);
+pub(crate) fn offset_distance(position: Vec3, normal: Vec3, size: f32) -> f32 {
+    let rounding = normal.abs().dot(position.abs()) * (0.5 * f32::EPSILON);
     ORIGIN_OFFSET_UNITS * rounding + ORIGIN_OFFSET_FLOOR * (size + position.abs().max_element())
 }
 

@@ -1,0 +1,95 @@
+//! The columns of chains and of path vertices, and the markers that tell tables apart.
+//!
+//! Chain rows are addressed by the chain's number inside its tile. Vertex rows are bounce-major: vertex `depth` of chain
+//! `c` is number `depth * chains + c`. Index lists (`…List`) are dense: their first entries name the chains that wait
+//! for a system; how many is in the tile's queue lengths.
+
+use crate::color::Rgb;
+use crate::columns;
+use bevy_ecs::component::Component;
+use glam::{Vec2, Vec3};
+
+/// Marks the rows of the chain table.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct ChainTable;
+
+/// Marks the rows of the table of proposed path vertices.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct ProposalTable;
+
+/// Marks the rows of the ray table: one ray or segment per chain at most.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct RayTable;
+
+/// Vertex kind: the point on the lens where the path starts.
+pub const VERTEX_LENS: u32 = 0;
+/// Vertex kind: a point on a surface, scattering with a density per solid angle, or where the path ended.
+pub const VERTEX_SURFACE: u32 = 1;
+/// Vertex kind: a point on a surface that scattered into one of a few directions (discrete measure).
+pub const VERTEX_DISCRETE: u32 = 2;
+
+columns! {
+    /// Mixed key of the chain's random streams in this step, see [`StreamKey`](crate::sampling::StreamKey).
+    pub ChainKey: u64;
+    /// Where the path's light falls on the film, pixels from the top left corner.
+    pub FilmPosition: Vec2;
+    /// Number of the pixel that this step's sample counts for, row by row from the top left.
+    pub FilmPixel: u32;
+    /// Direction of travel: into the current vertex, and after scattering out of it. World space, unit length.
+    pub Direction: Vec3;
+    /// f/p of the path so far, roulette included.
+    pub Throughput: Rgb;
+    /// Squared ratio of indices accumulated by refraction: what roulette multiplies throughput with.
+    pub RadianceScale: f32;
+    /// Depth of the path's last vertex: its number of edges.
+    pub PathLength: u32;
+    /// The proposal's contribution: radiance divided by the density of sampling it, W sr⁻¹ m⁻².
+    pub Contribution: Rgb;
+    /// Weight booked for the proposal in this step's decision.
+    pub BookedWeight: f32;
+    /// Decisions that the chain has taken since the tile was placed.
+    pub Decisions: u32;
+
+    /// Chains whose path waits for its next ray.
+    pub ActiveList: u32;
+    /// Chains whose vertex waits for a connection to a light.
+    pub ConnectList: u32;
+    /// Chains that stand on a diffuse material.
+    pub DiffuseList: u32;
+    /// Chains that stand on a conductor.
+    pub ConductorList: u32;
+    /// Chains that stand on a dielectric.
+    pub DielectricList: u32;
+    /// Chains that were scattered and wait for roulette.
+    pub ScatteredList: u32;
+    /// The chain that a ray or segment belongs to.
+    pub RayChain: u32;
+
+    /// What the vertex is: [`VERTEX_LENS`], [`VERTEX_SURFACE`] or [`VERTEX_DISCRETE`].
+    pub VertexKind: u32;
+    /// World-space position.
+    pub VertexPosition: Vec3;
+    /// Unit geometric normal, world space.
+    pub VertexNormal: Vec3;
+    /// Unit shading normal, world space.
+    pub VertexShadingNormal: Vec3;
+    /// How far a ray has to start off the surface, see [`offset_origin`](crate::geometry::offset_origin).
+    pub VertexOffset: f32;
+    /// Instance of the surface.
+    pub VertexInstance: u32;
+    /// Primitive of the surface, counted inside the instance.
+    pub VertexPrimitive: u32;
+    /// Coordinates on the primitive.
+    pub VertexUv: Vec2;
+    /// Material number.
+    pub VertexMaterial: u32;
+    /// f · |cos| / p of scattering at the vertex (and of surviving roulette there); 1 on the lens.
+    pub VertexRatio: Rgb;
+    /// Density of the direction sampled at the vertex, per solid angle; a probability if the vertex is discrete.
+    pub VertexDensity: f32;
+    /// Radiance emitted at the vertex back along the path, weighted against light sampling.
+    pub VertexEmission: Rgb;
+    /// Light that was connected to at the vertex: f · |cos| · radiance / density · transmittance, weighted against
+    /// meeting the light by scattering.
+    pub VertexConnection: Rgb;
+}

@@ -1,0 +1,10 @@
+//! Paths: the columns they are stored in, and the weights by which techniques share them.
+//!
+//! A path is x₀ x₁ … xₖ with k edges. **x₀ is on the lens**, xₖ on a light: a vertex's depth is the number of edges
+//! between it and the camera.
+
+mod columns;
+pub mod mis;
+pub mod roulette;
+
+pub use columns::*;
