@@ -1,0 +1,159 @@
+//! Fixed-point numbers the film sums in: exact to add, in any order.
+//!
+//! A value is stored as a multiple of 2⁻⁶⁴ units and its square as a multiple of 2⁻¹⁰⁴ units², where the unit is a power
+//! of two near the scene's brightest radiance. Squares get 192 bits, because they span twice the exponents: a pixel lit
+//! at 2⁻⁴⁰ units (a dim wall in a scene that also shows the sun) has squares at 2⁻⁸⁰, and its error must not read zero.
+
+/// Bits after the binary point of a sum, in units.
+pub const VALUE_FRACTION_BITS: i32 = 64;
+/// Bits after the binary point of a sum of squares, in units².
+pub const SQUARE_FRACTION_BITS: i32 = 104;
+/// The largest value that is stored as it is, as a power of two of units. Its square (2⁸⁰ units²) is well below the
+/// 2⁸⁸ units² at which a sum of squares ends.
+pub const LIMIT_BITS: i32 = 40;
+
+/// The power of two that the film's fixed-point numbers are counted in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unit {
+    exponent: i32,
+}
+
+/// One channel of a splat, ready to be added.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedValue {
+    /// The value in multiples of 2⁻⁶⁴ units, rounded to nearest, halves away from zero.
+    pub value: i128,
+    /// The significand's square; the square is this times 2^`square_shift` multiples of 2⁻¹⁰⁴ units².
+    square_significand: u64,
+    square_shift: i32,
+}
+
+impl Unit {
+    /// The smallest power of two that is at least `radiance`; one, when `radiance` is not a positive finite number.
+    pub fn at_least(radiance: f32) -> Self {
+        if !(radiance.is_finite() && radiance > 0.0) {
+            return Self { exponent: 0 };
+        }
+        let (significand, exponent) = split(radiance);
+        let top = 63 - significand.leading_zeros() as i32;
+        let ceiling = if significand.is_power_of_two() { top } else { top + 1 };
+        Self {
+            exponent: exponent + ceiling,
+        }
+    }
+
+    /// log₂ of the unit.
+    pub const fn exponent(self) -> i32 {
+        self.exponent
+    }
+
+    /// The largest magnitude stored as it is: 2⁴⁰ units, or the largest `f32` where that is smaller.
+    pub fn limit(self) -> f32 {
+        power_of_two(self.exponent + LIMIT_BITS).min(f64::from(f32::MAX)) as f32
+    }
+
+    /// Converts a finite value of magnitude at most [`Unit::limit`].
+    #[inline]
+    pub fn fixed(self, value: f32) -> FixedValue {
+        let (significand, exponent) = split(value);
+        let shift = exponent + VALUE_FRACTION_BITS - self.exponent;
+        let magnitude = if shift >= 0 {
+            i128::from(significand) << shift
+        } else {
+            i128::from(round_shift(significand, shift.unsigned_abs()))
+        };
+        FixedValue {
+            value: if value.is_sign_negative() {
+                -magnitude
+            } else {
+                magnitude
+            },
+            square_significand: significand * significand,
+            // 2(exponent - unit) + 104 = 2(shift - 64) + 104
+            square_shift: 2 * shift - (2 * VALUE_FRACTION_BITS - SQUARE_FRACTION_BITS),
+        }
+    }
+}
+
+/// A sum of squares: 192 bits, least significant limb first, in multiples of 2⁻¹⁰⁴ units². Pinned at its largest value
+/// once it would pass it; since squares are never negative, whether it is pinned does not depend on the order either.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(transparent)]
+pub struct SquareSum([u64; 3]);
+
+impl SquareSum {
+    const PINNED: Self = Self([u64::MAX; 3]);
+
+    /// Adds the square of a value.
+    #[inline]
+    pub fn add(&mut self, v: &FixedValue) {
+        let (p, t) = (v.square_significand, v.square_shift);
+        if (0..=80).contains(&t) {
+            // p < 2⁴⁸, so nothing leaves the 128 bits. This is every value from 2⁻⁴⁰ to 2⁹ units or so.
+            self.add_limbs(u128::from(p) << t, 0);
+        } else if t < 0 {
+            self.add_limbs(u128::from(round_shift(p, t.unsigned_abs())), 0);
+        } else {
+            // Above bit 80 the square straddles the upper limbs: lift it by 64, and the rest goes below.
+            let rest = t - 64;
+            let wide = u128::from(p) << (rest % 64);
+            if rest < 64 {
+                self.add_limbs((wide & u128::from(u64::MAX)) << 64, (wide >> 64) as u64);
+            } else {
+                self.add_limbs(0, wide as u64);
+            }
+        }
+    }
+
+    #[inline]
+    fn add_limbs(&mut self, low: u128, high: u64) {
+        let own = u128::from(self.0[0]) | (u128::from(self.0[1]) << 64);
+        let (sum, carry) = own.overflowing_add(low);
+        let (top, over_carry) = self.0[2].overflowing_add(u64::from(carry));
+        let (top, over_high) = top.overflowing_add(high);
+        *self = if over_carry | over_high {
+            Self::PINNED
+        } else {
+            Self([sum as u64, (sum >> 64) as u64, top])
+        };
+    }
+
+    /// Whether the sum has left its range.
+    pub fn is_pinned(self) -> bool {
+        self == Self::PINNED
+    }
+
+    /// The limbs, least significant first.
+    pub const fn limbs(self) -> [u64; 3] {
+        self.0
+    }
+}
+
+/// `value` = ± significand × 2^exponent, the significand below 2²⁴. Zero has a significand of zero.
+#[inline]
+fn split(value: f32) -> (u64, i32) {
+    let bits = value.to_bits();
+    let biased = ((bits >> 23) & 0xff) as i32;
+    let fraction = u64::from(bits & 0x7f_ffff);
+    if biased == 0 {
+        (fraction, -149)
+    } else {
+        (fraction | 0x80_0000, biased - 150)
+    }
+}
+
+/// `significand` / 2^`shift`, rounded to nearest, halves up. For significands below 2⁴⁸.
+#[inline]
+fn round_shift(significand: u64, shift: u32) -> u64 {
+    debug_assert!(shift > 0);
+    if shift > 62 {
+        0
+    } else {
+        (significand + (1 << (shift - 1))) >> shift
+    }
+}
+
+/// 2^`exponent`, for exponents of a normal `f64`; the nearest such power outside them.
+pub fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((exponent.clamp(-1022, 1023) + 1023) as u64) << 52)
+}

@@ -1,0 +1,26 @@
+//! The film: where light is summed, developed into a picture, and written to disk.
+//!
+//! [`Film`] adds up what paths bring, in integers, so that the sums depend on no order; [`Film::develop`] turns the sums
+//! into a [`Picture`] with its standard errors; [`write_exr`] and [`write_png`] put it on disk. A [`Filter`] says where
+//! around a pixel's centre a sample is taken. Nothing is clamped but what a PNG displays.
+//!
+//! Pixels are row-major: index `y * width + x`, with (0, 0) at the top left, x to the right and y down.
+
+mod accumulate;
+mod develop;
+mod exr_file;
+mod exr_read;
+mod filter;
+mod fixed;
+mod picture;
+mod png_file;
+mod wide;
+mod write;
+
+pub use accumulate::{Film, FilmError, Splat, Tally};
+pub use exr_file::{PictureMetadata, encode_exr, write_exr};
+pub use exr_read::{ExrPicture, ReadError, decode_exr, read_exr};
+pub use filter::{Filter, FilterDescription, FilterError};
+pub use picture::{ImageView, Picture};
+pub use png_file::{ToneMap, encode_png, write_png};
+pub use write::{WriteError, write_file};

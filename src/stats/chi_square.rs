@@ -1,0 +1,161 @@
+//! Pearson's chi-square test: do counts come from a distribution, and how small a deviation would show.
+
+use super::normal::bisect;
+use serde::Serialize;
+
+/// Cells with fewer expected counts are pooled: below five the statistic is not near its distribution.
+const MIN_EXPECTED: f64 = 5.0;
+
+/// The outcome of a chi-square test.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ChiSquare {
+    /// Σ (observed − expected)² / expected over the cells. Infinite where counts fell in cells that allow none.
+    pub statistic: f64,
+    /// Cells after pooling, less one.
+    pub degrees_of_freedom: usize,
+    /// The probability of a statistic at least this large when nothing is wrong.
+    pub p: f64,
+    /// Counts in all.
+    pub samples: u64,
+}
+
+/// Tests `observed` counts against `probabilities` of the same cells. The probabilities are taken as fractions of the
+/// samples; they should sum to one, since samples that fell nowhere are not seen. Cells with fewer than five expected
+/// counts are pooled, smallest first, until the pool has five; what is left goes with the last pool.
+/// Cells beyond the shorter list count as missing: zero counts, or zero probability.
+#[must_use]
+pub fn chi_square(observed: &[u64], probabilities: &[f64]) -> ChiSquare {
+    let samples: u64 = observed.iter().sum();
+    let cells = observed.len().max(probabilities.len());
+    let cell = |i: usize| {
+        let count = observed.get(i).copied().unwrap_or(0) as f64;
+        (count, probabilities.get(i).copied().unwrap_or(0.0) * samples as f64)
+    };
+    let mut cells: Vec<(f64, f64)> = (0..cells).map(cell).collect();
+    cells.sort_by(|a, b| a.1.total_cmp(&b.1));
+
+    let impossible = cells.iter().any(|&(count, expected)| count > 0.0 && !(expected > 0.0));
+    let mut pools: Vec<(f64, f64)> = Vec::new();
+    let mut pool = (0.0, 0.0);
+    for (count, expected) in cells {
+        pool = (pool.0 + count, pool.1 + expected);
+        if pool.1 >= MIN_EXPECTED {
+            pools.push(std::mem::take(&mut pool));
+        }
+    }
+    match pools.last_mut() {
+        Some(last) => *last = (last.0 + pool.0, last.1 + pool.1),
+        None => pools.push(pool),
+    }
+    let statistic = if impossible {
+        f64::INFINITY
+    } else {
+        pools
+            .iter()
+            .filter(|p| p.1 > 0.0)
+            .map(|(o, e)| (o - e) * (o - e) / e)
+            .sum()
+    };
+    let degrees_of_freedom = pools.len() - 1;
+    ChiSquare {
+        statistic,
+        degrees_of_freedom,
+        p: upper_tail(statistic, degrees_of_freedom),
+        samples,
+    }
+}
+
+impl ChiSquare {
+    /// The smallest deviation that this test at significance `alpha` finds with probability `power`, as the root mean
+    /// square relative error of the cells' probabilities, w = √(Σ (q − p)²/p) for true probabilities q (Cohen's w). The
+    /// statistic is then noncentral chi-square with noncentrality n w².
+    #[must_use]
+    pub fn smallest_visible_deviation(&self, alpha: f64, power: f64) -> f64 {
+        let dof = self.degrees_of_freedom;
+        if dof == 0 || self.samples == 0 {
+            return f64::INFINITY;
+        }
+        let k = dof as f64;
+        let critical = bisect(0.0, 1e3 + 10.0 * k, |x| upper_tail(x, dof) > alpha);
+        let noncentrality = bisect(0.0, 1e3 + 10.0 * k, |l| noncentral_upper_tail(critical, dof, l) < power);
+        (noncentrality / self.samples as f64).sqrt()
+    }
+}
+
+/// The probability that a chi-square variable of `dof` degrees of freedom is above `x`. Without a degree of freedom the
+/// variable is zero.
+#[must_use]
+pub fn upper_tail(x: f64, dof: usize) -> f64 {
+    if dof == 0 || x.is_nan() {
+        return if x <= 0.0 || dof == 0 && x.is_finite() {
+            1.0
+        } else {
+            0.0
+        };
+    }
+    gamma_q(0.5 * dof as f64, 0.5 * x)
+}
+
+/// As [`upper_tail`], of a noncentral chi-square variable: a Poisson mixture of central ones, with mean λ/2.
+fn noncentral_upper_tail(x: f64, dof: usize, noncentrality: f64) -> f64 {
+    let mean = 0.5 * noncentrality;
+    if mean <= 0.0 {
+        return upper_tail(x, dof);
+    }
+    // All but e⁻³² of the Poisson weight lies within eight deviations of its mean.
+    let spread = 8.0 * mean.sqrt() + 40.0;
+    let (first, last) = ((mean - spread).max(0.0) as usize, (mean + spread) as usize);
+    (first..=last)
+        .map(|j| {
+            let log_weight = j as f64 * libm::log(mean) - mean - libm::lgamma(j as f64 + 1.0);
+            libm::exp(log_weight) * upper_tail(x, dof + 2 * j)
+        })
+        .sum()
+}
+
+/// The regularised upper incomplete gamma function Q(a, x), for a > 0: the series of P below x = a + 1, the continued
+/// fraction of Q above (Abramowitz and Stegun 6.5.29 and 6.5.31; the fraction evaluated by Lentz's method).
+fn gamma_q(a: f64, x: f64) -> f64 {
+    if x <= 0.0 {
+        return 1.0;
+    }
+    if x.is_infinite() {
+        return 0.0;
+    }
+    let scale = libm::exp(a * libm::log(x) - x - libm::lgamma(a));
+    // Near x = a both need some √a terms.
+    let terms = 200 + (20.0 * a.sqrt()) as usize;
+    if x < a + 1.0 {
+        let (mut term, mut sum) = (1.0 / a, 1.0 / a);
+        for n in 1..terms {
+            term *= x / (a + n as f64);
+            sum += term;
+            if term < sum * 1e-17 {
+                break;
+            }
+        }
+        return (1.0 - scale * sum).clamp(0.0, 1.0);
+    }
+    let mut b = x + 1.0 - a;
+    let mut c = f64::MAX;
+    let mut d = 1.0 / b;
+    let mut h = d;
+    for n in 1..terms {
+        let n = n as f64;
+        let an = -n * (n - a);
+        b += 2.0;
+        d = 1.0 / nonzero(an * d + b);
+        c = nonzero(b + an / c);
+        let step = c * d;
+        h *= step;
+        if (step - 1.0).abs() < 1e-16 {
+            break;
+        }
+    }
+    (scale * h).clamp(0.0, 1.0)
+}
+
+/// Lentz's method divides by its partial denominators.
+fn nonzero(x: f64) -> f64 {
+    if x.abs() < 1e-300 { 1e-300 } else { x }
+}
