@@ -32,7 +32,13 @@ impl Perspective {
     /// The camera that a (validated) description names, before a film of `width` x `height` pixels.
     #[must_use]
     pub fn new(description: &CameraDescription, width: u32, height: u32) -> Self {
-        let CameraDescription::Perspective { origin, target, up, fov, fov_axis } = description;
+        let CameraDescription::Perspective {
+            origin,
+            target,
+            up,
+            fov,
+            fov_axis,
+        } = description;
         let (origin, target) = (Vec3::from_array(*origin), Vec3::from_array(*target));
         let forward = (target.as_dvec3() - origin.as_dvec3()).normalize();
         let right = forward.cross(Vec3::from_array(*up).as_dvec3()).normalize();

@@ -27,7 +27,12 @@ impl LeafPrimitive {
             InstanceShape::Mesh { .. } => (geometry.corners(row, primitive)?, false),
             InstanceShape::Sphere { center, radius } => ([center, Vec3::splat(radius), Vec3::ZERO], true),
         };
-        Some(Self { corners, instance, primitive, is_sphere })
+        Some(Self {
+            corners,
+            instance,
+            primitive,
+            is_sphere,
+        })
     }
 
     /// Whether the primitive has any area, in f64.
@@ -40,7 +45,10 @@ impl LeafPrimitive {
     pub fn bounds(&self) -> Aabb {
         let [a, b, c] = self.corners;
         let (min, max) = if self.is_sphere {
-            ((a - b).to_array().map(f32::next_down).into(), (a + b).to_array().map(f32::next_up).into())
+            (
+                (a - b).to_array().map(f32::next_down).into(),
+                (a + b).to_array().map(f32::next_up).into(),
+            )
         } else {
             (a.min(b).min(c), a.max(b).max(c))
         };

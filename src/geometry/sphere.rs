@@ -53,6 +53,9 @@ mod tests {
         let (center, radius) = (Vec3::new(0.0, 0.0, -1e6), 1e-3);
         let ray = RayFrame::new(Vec3::ZERO, DVec3::NEG_Z);
         let [near, far] = cross(&ray, center, radius).expect("straight at its centre");
-        assert!((near - (1e6 - 1e-3)).abs() < 1e-8 && (far - (1e6 + 1e-3)).abs() < 1e-8, "{near} {far}");
+        assert!(
+            (near - (1e6 - 1e-3)).abs() < 1e-8 && (far - (1e6 + 1e-3)).abs() < 1e-8,
+            "{near} {far}"
+        );
     }
 }

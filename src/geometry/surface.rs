@@ -78,7 +78,13 @@ pub struct SurfacePoint {
 impl Geometry {
     /// The corners of a mesh's triangle, world space; `None` if there is no such triangle.
     pub(crate) fn corners(&self, instance: &Instance, primitive: u32) -> Option<[Vec3; 3]> {
-        let InstanceShape::Mesh { first_triangle, triangle_count, first_vertex, .. } = instance.shape else {
+        let InstanceShape::Mesh {
+            first_triangle,
+            triangle_count,
+            first_vertex,
+            ..
+        } = instance.shape
+        else {
             return None;
         };
         let triangle = (primitive < triangle_count).then(|| self.triangles[(first_triangle + primitive) as usize])?;
@@ -90,7 +96,12 @@ impl Geometry {
     pub fn surface_point(&self, hit: Hit) -> SurfacePoint {
         let instance = &self.instances[hit.instance as usize];
         let (position, normal, shading, size) = match instance.shape {
-            InstanceShape::Mesh { first_triangle, first_vertex, first_normal, .. } => {
+            InstanceShape::Mesh {
+                first_triangle,
+                first_vertex,
+                first_normal,
+                ..
+            } => {
                 let corners = self.triangles[(first_triangle + hit.primitive) as usize];
                 let [a, b, c] = corners.map(|i| self.positions[(first_vertex + i) as usize].as_dvec3());
                 let (u, v) = (f64::from(hit.uv.x), f64::from(hit.uv.y));
@@ -136,6 +147,10 @@ pub(crate) fn offset_distance(position: Vec3, normal: Vec3, size: f32) -> f32 {
 #[inline]
 #[must_use]
 pub fn offset_origin(position: Vec3, geometric_normal: Vec3, offset: f32, direction: Vec3) -> Vec3 {
-    let side = if geometric_normal.dot(direction) < 0.0 { -offset } else { offset };
+    let side = if geometric_normal.dot(direction) < 0.0 {
+        -offset
+    } else {
+        offset
+    };
     position + geometric_normal * side
 }

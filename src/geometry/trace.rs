@@ -2,8 +2,8 @@
 
 use super::Geometry;
 use super::queue::{HitColumns, NO_HIT, RayColumns, SegmentColumns, SegmentTransmittance};
-use super::triangle::RayFrame;
 use super::tree::Walk;
+use super::triangle::RayFrame;
 use crate::color::Rgb;
 use crate::table::Rows;
 use glam::Vec2;
@@ -42,7 +42,12 @@ impl Geometry {
 
     #[inline]
     fn closest_hit(&self, ray: &RayFrame) -> Nearest {
-        let mut nearest = Nearest { distance: f32::INFINITY, instance: NO_HIT, primitive: NO_HIT, uv: Vec2::ZERO };
+        let mut nearest = Nearest {
+            distance: f32::INFINITY,
+            instance: NO_HIT,
+            primitive: NO_HIT,
+            uv: Vec2::ZERO,
+        };
         self.tree.walk(ray, f32::INFINITY, |leaf| {
             for primitive in leaf {
                 let Some((t, uv)) = primitive.hit(ray) else { continue };

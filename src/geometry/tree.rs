@@ -25,8 +25,12 @@ struct Pair {
 
 impl Pair {
     /// Two boxes that no ray meets.
-    const EMPTY: Self =
-        Self { min: [[f32::INFINITY; 2]; 3], max: [[f32::NEG_INFINITY; 2]; 3], first: [0; 2], count: [1; 2] };
+    const EMPTY: Self = Self {
+        min: [[f32::INFINITY; 2]; 3],
+        max: [[f32::NEG_INFINITY; 2]; 3],
+        first: [0; 2],
+        count: [1; 2],
+    };
 
     fn set_box(&mut self, side: usize, node: &Bvh2Node) {
         let (min, max) = (node.aabb().min.to_array(), node.aabb().max.to_array());
@@ -62,7 +66,10 @@ impl Tree {
         let mut build_time = Duration::ZERO;
         let bvh = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut build_time);
         let in_order = bvh.primitive_indices.iter().map(|&i| primitives[i as usize]).collect();
-        Self { pairs: pair_up(&bvh), primitives: in_order }
+        Self {
+            pairs: pair_up(&bvh),
+            primitives: in_order,
+        }
     }
 
     /// Memory in bytes.
@@ -89,7 +96,11 @@ impl Tree {
         let inverse = ray.direction.recip().as_vec3().to_array();
         let origin = ray.origin.as_vec3().to_array();
         let mut stack = Stack::default();
-        let mut next = Some(Entry { first: 0, count: 0, distance: 0.0 });
+        let mut next = Some(Entry {
+            first: 0,
+            count: 0,
+            distance: 0.0,
+        });
         while let Some(entry) = next {
             if entry.distance > limit * CULL_SLACK {
                 next = stack.pop();
@@ -110,12 +121,19 @@ impl Tree {
                 count: pair.count[side],
                 distance: box_distance(pair, side, origin, inverse, limit),
             });
-            let (near, far) =
-                if entries[1].distance < entries[0].distance { (entries[1], entries[0]) } else { (entries[0], entries[1]) };
+            let (near, far) = if entries[1].distance < entries[0].distance {
+                (entries[1], entries[0])
+            } else {
+                (entries[0], entries[1])
+            };
             if far.distance < f32::INFINITY {
                 stack.push(far);
             }
-            next = if near.distance < f32::INFINITY { Some(near) } else { stack.pop() };
+            next = if near.distance < f32::INFINITY {
+                Some(near)
+            } else {
+                stack.pop()
+            };
         }
     }
 }
@@ -130,11 +148,19 @@ fn box_distance(pair: &Pair, side: usize, origin: [f32; 3], inverse: [f32; 3], l
     for axis in 0..3 {
         let to_min = (pair.min[axis][side] - origin[axis]) * inverse[axis];
         let to_max = (pair.max[axis][side] - origin[axis]) * inverse[axis];
-        let (near, far) = if inverse[axis].is_sign_negative() { (to_max, to_min) } else { (to_min, to_max) };
+        let (near, far) = if inverse[axis].is_sign_negative() {
+            (to_max, to_min)
+        } else {
+            (to_min, to_max)
+        };
         enter = if near > enter { near } else { enter };
         exit = if far < exit { far } else { exit };
     }
-    if enter <= exit * BOX_EXIT_SLACK && enter <= limit * CULL_SLACK { enter } else { f32::INFINITY }
+    if enter <= exit * BOX_EXIT_SLACK && enter <= limit * CULL_SLACK {
+        enter
+    } else {
+        f32::INFINITY
+    }
 }
 
 #[derive(Clone, Copy, Default)]
@@ -154,7 +180,11 @@ struct Stack {
 impl Default for Stack {
     #[inline]
     fn default() -> Self {
-        Self { fixed: [Entry::default(); Self::FIXED], len: 0, spill: Vec::new() }
+        Self {
+            fixed: [Entry::default(); Self::FIXED],
+            len: 0,
+            spill: Vec::new(),
+        }
     }
 }
 
@@ -174,7 +204,11 @@ impl Stack {
     #[inline]
     fn pop(&mut self) -> Option<Entry> {
         self.len = self.len.checked_sub(1)?;
-        if self.len < Self::FIXED { Some(self.fixed[self.len]) } else { self.spill.pop() }
+        if self.len < Self::FIXED {
+            Some(self.fixed[self.len])
+        } else {
+            self.spill.pop()
+        }
     }
 }
 

@@ -48,14 +48,23 @@ impl RayFrame {
             std::mem::swap(&mut x, &mut y);
         }
         let shear = [d[x] / d[z], d[y] / d[z], 1.0 / d[z]];
-        Self { origin: origin.as_dvec3(), direction, axes: [x, y, z], shear }
+        Self {
+            origin: origin.as_dvec3(),
+            direction,
+            axes: [x, y, z],
+            shear,
+        }
     }
 
     #[inline]
     fn sheared(&self, corner: Vec3) -> [f64; 3] {
         let c = (corner.as_dvec3() - self.origin).to_array();
         let z = c[self.axes[2]];
-        [c[self.axes[0]] - self.shear[0] * z, c[self.axes[1]] - self.shear[1] * z, self.shear[2] * z]
+        [
+            c[self.axes[0]] - self.shear[0] * z,
+            c[self.axes[1]] - self.shear[1] * z,
+            self.shear[2] * z,
+        ]
     }
 
     /// Where the ray's line crosses the triangle `a`, `b`, `c`, edges included; `None` if it does not, if the triangle
@@ -75,7 +84,11 @@ impl RayFrame {
             return None;
         }
         let inverse = 1.0 / det;
-        Some(Crossing { t: (wa * az + wb * bz + wc * cz) * inverse, u: wb * inverse, v: wc * inverse })
+        Some(Crossing {
+            t: (wa * az + wb * bz + wc * cz) * inverse,
+            u: wb * inverse,
+            v: wc * inverse,
+        })
     }
 }
 
@@ -88,7 +101,14 @@ mod tests {
     #[test]
     fn a_crossing_tells_distance_and_barycentric_weights() {
         let ray = RayFrame::new(Vec3::new(0.25, 0.5, 2.0), DVec3::new(0.0, 0.0, -2.0));
-        assert_eq!(ray.cross(UNIT), Some(Crossing { t: 1.0, u: 0.25, v: 0.5 }));
+        assert_eq!(
+            ray.cross(UNIT),
+            Some(Crossing {
+                t: 1.0,
+                u: 0.25,
+                v: 0.5
+            })
+        );
     }
 
     #[test]

@@ -25,15 +25,24 @@ pub(super) fn sample(center: Vec3, radius: f32, from: Vec3, u: [f32; 2]) -> Opti
     let distance = axis.length();
     let axis = axis / distance;
     let frame = Frame::new(axis.as_vec3());
-    let direction = frame.to_world(warp::uniform_cone(u, one_minus_cos)).as_dvec3().normalize();
+    let direction = frame
+        .to_world(warp::uniform_cone(u, one_minus_cos))
+        .as_dvec3()
+        .normalize();
     // The nearer of the two points where the direction meets the sphere; at the cone's rim the root may round below 0.
     let along = direction.dot(axis) * distance;
     let off_axis = axis * distance - direction * along;
-    let half = (f64::from(radius) * f64::from(radius) - off_axis.length_squared()).max(0.0).sqrt();
+    let half = (f64::from(radius) * f64::from(radius) - off_axis.length_squared())
+        .max(0.0)
+        .sqrt();
     let normal = (direction * (along - half) - axis * distance).normalize();
     let position = (center.as_dvec3() + normal * f64::from(radius)).as_vec3();
     let density = 1.0 / (TAU * one_minus_cos);
-    density.is_finite().then_some(EmitterPoint { position, normal: normal.as_vec3(), density })
+    density.is_finite().then_some(EmitterPoint {
+        position,
+        normal: normal.as_vec3(),
+        density,
+    })
 }
 
 /// The density, per solid angle at `from`, with which [`sample`] chooses any point that `from` sees.

@@ -77,7 +77,10 @@ impl LightTable {
     /// The largest emitted radiance of any channel, 0 if nothing emits.
     #[must_use]
     pub fn max_radiance(&self) -> f32 {
-        self.emitters.iter().map(|e| e.radiance.max_channel()).fold(0.0, f32::max)
+        self.emitters
+            .iter()
+            .map(|e| e.radiance.max_channel())
+            .fold(0.0, f32::max)
     }
 
     /// Chooses a light with `choice` and a point on it with `u`, as seen from `from`. `None` if no light reaches
@@ -119,6 +122,10 @@ impl LightTable {
     #[inline]
     #[must_use]
     pub fn radiance(&self, light: u32, normal: Vec3, towards: Vec3) -> Rgb {
-        if normal.dot(towards) > 0.0 { self.emitters[light as usize].radiance } else { Rgb::BLACK }
+        if normal.dot(towards) > 0.0 {
+            self.emitters[light as usize].radiance
+        } else {
+            Rgb::BLACK
+        }
     }
 }

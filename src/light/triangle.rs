@@ -14,7 +14,11 @@ pub(super) fn sample(corners: [Vec3; 3], area: f32, from: Vec3, u: [f32; 2]) -> 
     let position = (a + ab * b1 + ac * b2).as_vec3();
     let normal = ab.cross(ac).normalize().as_vec3();
     let density = density(area, from, position, normal);
-    (density > 0.0 && density.is_finite()).then_some(EmitterPoint { position, normal, density })
+    (density > 0.0 && density.is_finite()).then_some(EmitterPoint {
+        position,
+        normal,
+        density,
+    })
 }
 
 /// The density, per solid angle at `from`, with which [`sample`] chooses `position`; 0 where it cannot.
@@ -25,5 +29,9 @@ pub(super) fn density(area: f32, from: Vec3, position: Vec3, normal: Vec3) -> f3
     let distance_squared = to_reference.length_squared();
     // |r|² / (A cos θ) with cos θ = n·r / |r|.
     let projected = normal.dot(to_reference);
-    if projected > 0.0 { distance_squared * distance_squared.sqrt() / (projected * area) } else { 0.0 }
+    if projected > 0.0 {
+        distance_squared * distance_squared.sqrt() / (projected * area)
+    } else {
+        0.0
+    }
 }

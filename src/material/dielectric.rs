@@ -36,7 +36,11 @@ impl Dielectric {
             return None;
         }
         // From the side the path comes from to the other.
-        let relative_ior = if wi.z > 0.0 { self.relative_ior } else { 1.0 / self.relative_ior };
+        let relative_ior = if wi.z > 0.0 {
+            self.relative_ior
+        } else {
+            1.0 / self.relative_ior
+        };
         let fresnel = fresnel::dielectric(wi.z.abs(), relative_ior);
         if u < fresnel.reflectance {
             return Some(Scattered {
@@ -48,7 +52,11 @@ impl Dielectric {
             });
         }
         let inverse = 1.0 / relative_ior;
-        let wo = Vec3::new(-wi.x * inverse, -wi.y * inverse, fresnel.cos_transmitted.copysign(-wi.z));
+        let wo = Vec3::new(
+            -wi.x * inverse,
+            -wi.y * inverse,
+            fresnel.cos_transmitted.copysign(-wi.z),
+        );
         Some(Scattered {
             wo: wo.normalize(),
             // Radiance spreads over a larger or smaller solid angle.

@@ -38,7 +38,13 @@ impl Diffuse {
             return None;
         }
         wo.z = wo.z.copysign(wi.z);
-        Some(Scattered { wo, ratio: self.reflectance, density, discrete: false, relative_ior: 1.0 })
+        Some(Scattered {
+            wo,
+            ratio: self.reflectance,
+            density,
+            discrete: false,
+            relative_ior: 1.0,
+        })
     }
 
     /// Value and density for a pair of directions.

@@ -18,19 +18,28 @@ pub struct DielectricFresnel {
 pub fn dielectric(cos_incident: f32, relative_ior: f32) -> DielectricFresnel {
     let cos_i = cos_incident.clamp(0.0, 1.0);
     if relative_ior == 1.0 {
-        return DielectricFresnel { reflectance: 0.0, cos_transmitted: cos_i };
+        return DielectricFresnel {
+            reflectance: 0.0,
+            cos_transmitted: cos_i,
+        };
     }
     // In f64: near the critical angle and for nearly equal indices f32 cancels.
     let (ci, n) = (f64::from(cos_i), f64::from(relative_ior));
     let sin2_t = (1.0 - ci * ci) / (n * n);
     if sin2_t >= 1.0 {
-        return DielectricFresnel { reflectance: 1.0, cos_transmitted: 0.0 };
+        return DielectricFresnel {
+            reflectance: 1.0,
+            cos_transmitted: 0.0,
+        };
     }
     let ct = (1.0 - sin2_t).sqrt();
     let perpendicular = (ci - n * ct) / (ci + n * ct);
     let parallel = (n * ci - ct) / (n * ci + ct);
     let reflectance = 0.5 * (perpendicular * perpendicular + parallel * parallel);
-    DielectricFresnel { reflectance: reflectance as f32, cos_transmitted: ct as f32 }
+    DielectricFresnel {
+        reflectance: reflectance as f32,
+        cos_transmitted: ct as f32,
+    }
 }
 
 /// Share of power that a smooth conductor reflects, for the complex index `eta + i k` of the metal relative to the
@@ -49,5 +58,9 @@ pub fn conductor(cos_incident: f32, eta: f32, k: f32) -> f32 {
     let parallel = perpendicular * (t3 - t4) / (t3 + t4);
     let reflectance = 0.5 * (perpendicular + parallel);
     // 0/0 at grazing incidence on an index of 1 with no absorption: nothing is there to reflect.
-    if reflectance.is_nan() { 1.0 } else { reflectance.clamp(0.0, 1.0) as f32 }
+    if reflectance.is_nan() {
+        1.0
+    } else {
+        reflectance.clamp(0.0, 1.0) as f32
+    }
 }

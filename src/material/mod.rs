@@ -11,8 +11,8 @@
 pub mod conductor;
 pub mod dielectric;
 pub mod diffuse;
-pub mod fresnel;
 mod frame;
+pub mod fresnel;
 mod table;
 
 pub use frame::Frame;
@@ -47,5 +47,8 @@ pub struct Evaluated {
 
 impl Evaluated {
     /// Nothing is scattered from one direction to the other.
-    pub const ZERO: Self = Self { value: Rgb::BLACK, density: 0.0 };
+    pub const ZERO: Self = Self {
+        value: Rgb::BLACK,
+        density: 0.0,
+    };
 }

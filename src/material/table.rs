@@ -60,13 +60,32 @@ impl MaterialTable {
                 self.diffuse.push(Diffuse { reflectance, two_sided });
                 (MaterialKind::Diffuse, self.diffuse.len() - 1)
             }
-            MaterialDescription::Conductor { eta, k, reflectance, two_sided } => {
-                self.conductor.push(Conductor { eta, k, reflectance, two_sided });
+            MaterialDescription::Conductor {
+                eta,
+                k,
+                reflectance,
+                two_sided,
+            } => {
+                self.conductor.push(Conductor {
+                    eta,
+                    k,
+                    reflectance,
+                    two_sided,
+                });
                 (MaterialKind::Conductor, self.conductor.len() - 1)
             }
-            MaterialDescription::Dielectric { interior_ior, exterior_ior, reflectance, transmittance } => {
+            MaterialDescription::Dielectric {
+                interior_ior,
+                exterior_ior,
+                reflectance,
+                transmittance,
+            } => {
                 let relative_ior = interior_ior / exterior_ior;
-                self.dielectric.push(Dielectric { relative_ior, reflectance, transmittance });
+                self.dielectric.push(Dielectric {
+                    relative_ior,
+                    reflectance,
+                    transmittance,
+                });
                 (MaterialKind::Dielectric, self.dielectric.len() - 1)
             }
         };

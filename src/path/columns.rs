@@ -31,8 +31,6 @@ pub const VERTEX_DISCRETE: u32 = 2;
 columns! {
     /// Mixed key of the chain's random streams in this step, see [`StreamKey`](crate::sampling::StreamKey).
     pub ChainKey: u64;
-    /// Where the path's light falls on the film, pixels from the top left corner.
-    pub FilmPosition: Vec2;
     /// Number of the pixel that this step's sample counts for, row by row from the top left.
     pub FilmPixel: u32;
     /// Direction of travel: into the current vertex, and after scattering out of it. World space, unit length.

@@ -4,7 +4,11 @@
 //! between it and the camera.
 
 mod columns;
+mod film_position;
 pub mod mis;
 pub mod roulette;
+mod scatterer;
 
 pub use columns::*;
+pub use film_position::film_position;
+pub use scatterer::{Connection, Scatterer};

@@ -16,5 +16,9 @@ pub const MAX_SURVIVAL: f32 = 0.95;
 #[inline]
 #[must_use]
 pub fn survival(depth: u32, throughput: Rgb, radiance_scale: f32) -> f32 {
-    if depth < FIRST_DEPTH { 1.0 } else { (throughput.max_channel() * radiance_scale).min(MAX_SURVIVAL) }
+    if depth < FIRST_DEPTH {
+        1.0
+    } else {
+        (throughput.max_channel() * radiance_scale).min(MAX_SURVIVAL)
+    }
 }

@@ -31,7 +31,10 @@ impl Discrete {
             *c = 1.0;
         }
         let probabilities = weights.map(|weight| (weight / total) as f32).collect();
-        Self { cumulative, probabilities }
+        Self {
+            cumulative,
+            probabilities,
+        }
     }
 
     /// Whether there is nothing to choose.

@@ -48,7 +48,10 @@ impl StreamKey {
         let chain = chain as u64;
         let seeded = mix(seed.wrapping_add(WEYL));
         let chained = mix(seeded ^ chain.wrapping_mul(WEYL));
-        Self { base: mix(chained.wrapping_add(step.wrapping_mul(WEYL))), chain }
+        Self {
+            base: mix(chained.wrapping_add(step.wrapping_mul(WEYL))),
+            chain,
+        }
     }
 
     /// The key's mixed 64 bits, as they are kept in a column.
@@ -62,7 +65,10 @@ impl StreamKey {
     #[inline]
     #[must_use]
     pub const fn from_bits(base: u64, chain: u32) -> Self {
-        Self { base, chain: chain as u64 }
+        Self {
+            base,
+            chain: chain as u64,
+        }
     }
 
     /// The stream of draws for `purpose` at vertex `depth`.
@@ -71,7 +77,9 @@ impl StreamKey {
     pub fn stream(self, purpose: Purpose, depth: u32) -> Stream {
         let named = ((purpose as u64) << 32) | u64::from(depth);
         let state = mix(self.base ^ named.wrapping_add(1).wrapping_mul(WEYL));
-        Stream { generator: Pcg32::new(state, mix(self.chain ^ WEYL)) }
+        Stream {
+            generator: Pcg32::new(state, mix(self.chain ^ WEYL)),
+        }
     }
 }
 
@@ -115,7 +123,10 @@ mod tests {
     #[test]
     fn every_part_of_the_key_changes_the_stream() {
         let first = |seed, chain, step, purpose, depth| {
-            StreamKey::new(seed, chain, step).stream(purpose, depth).generator.next_u32()
+            StreamKey::new(seed, chain, step)
+                .stream(purpose, depth)
+                .generator
+                .next_u32()
         };
         let reference = first(1, 2, 3, Purpose::Light, 4);
         assert_eq!(reference, first(1, 2, 3, Purpose::Light, 4));

@@ -1,5 +1,6 @@
 //! The scene: from a file on disk to validated, flattened shapes in world space.
 
+mod compile;
 pub mod description;
 pub mod error;
 pub mod flatten;
@@ -9,6 +10,7 @@ pub mod mesh;
 pub mod read;
 mod syntax;
 
+pub use compile::{Scene, SceneOverrides};
 pub use description::{
     CameraDescription, FilmDescription, FilterDescription, FovAxis, MaterialDescription, SceneDescription,
     SettingsDescription, ShapeDescription, ShapeKind, TransformStep,

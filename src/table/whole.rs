@@ -17,7 +17,11 @@ impl<C: Column, T: Component> Read<'_, '_, C, T> {
     #[inline]
     #[must_use]
     pub fn rows(&self) -> &[C] {
-        self.query.contiguous_iter().ok().and_then(|mut tables| tables.next()).unwrap_or(&[])
+        self.query
+            .contiguous_iter()
+            .ok()
+            .and_then(|mut tables| tables.next())
+            .unwrap_or(&[])
     }
 }
 
@@ -32,7 +36,11 @@ impl<C: Column, T: Component> Write<'_, '_, C, T> {
     #[inline]
     #[must_use]
     pub fn rows(&mut self) -> &mut [C] {
-        let table = self.query.contiguous_iter_mut().ok().and_then(|mut tables| tables.next());
+        let table = self
+            .query
+            .contiguous_iter_mut()
+            .ok()
+            .and_then(|mut tables| tables.next());
         table.map_or(&mut [], |column| ContiguousMut::bypass_change_detection_split(column).0)
     }
 }

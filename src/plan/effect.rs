@@ -1,0 +1,133 @@
+//! Effects: the classes of light transport that a scene may call for.
+
+use crate::material::MaterialKind;
+use crate::scene::Scene;
+
+/// A class of light transport.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// Surfaces that emit.
+    Emission,
+    /// Light connected to from a surface that scatters with a density.
+    DirectLight,
+    /// Scattering off matt surfaces.
+    DiffuseReflection,
+    /// Mirrors of metal.
+    SpecularReflection,
+    /// Interfaces that reflect and refract.
+    Refraction,
+}
+
+impl Effect {
+    /// Every effect.
+    pub const ALL: [Self; 5] = [
+        Self::Emission,
+        Self::DirectLight,
+        Self::DiffuseReflection,
+        Self::SpecularReflection,
+        Self::Refraction,
+    ];
+
+    /// The effect's name as plans print it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Emission => "emission",
+            Self::DirectLight => "direct light",
+            Self::DiffuseReflection => "diffuse reflection",
+            Self::SpecularReflection => "specular reflection",
+            Self::Refraction => "refraction",
+        }
+    }
+}
+
+/// Whether an effect is on, and why.
+#[derive(Clone, Debug)]
+pub struct EffectPlan {
+    /// The effect.
+    pub effect: Effect,
+    /// Whether the scene calls for it.
+    pub on: bool,
+    /// Why, or why not.
+    pub reason: String,
+}
+
+/// Whether `effect` is on in `effects`.
+pub(super) fn is_on(effects: &[EffectPlan], effect: Effect) -> bool {
+    effects.iter().any(|plan| plan.effect == effect && plan.on)
+}
+
+/// Decides every effect for a scene.
+pub(super) fn effects(scene: &Scene) -> Vec<EffectPlan> {
+    Effect::ALL
+        .map(|effect| {
+            let (on, reason) = decide(scene, effect);
+            EffectPlan { effect, on, reason }
+        })
+        .into()
+}
+
+fn decide(scene: &Scene, effect: Effect) -> (bool, String) {
+    if scene.lights.is_empty() {
+        return (
+            false,
+            "nothing emits: the picture is black and no path is traced".to_owned(),
+        );
+    }
+    if effect != Effect::Emission && scene.max_depth < 2 {
+        return (
+            false,
+            "max_depth is 1: emitters seen directly, nothing scatters".to_owned(),
+        );
+    }
+    match effect {
+        Effect::Emission => (true, emitters(scene)),
+        Effect::DirectLight => {
+            let used = materials(scene, |kind| !kind.is_discrete());
+            if used.is_empty() {
+                (
+                    false,
+                    "every material is discrete: no light can be connected to".to_owned(),
+                )
+            } else {
+                (true, format!("lights can be sampled from {}", list(&used)))
+            }
+        }
+        Effect::DiffuseReflection => by_kind(scene, MaterialKind::Diffuse),
+        Effect::SpecularReflection => by_kind(scene, MaterialKind::Conductor),
+        Effect::Refraction => by_kind(scene, MaterialKind::Dielectric),
+    }
+}
+
+fn emitters(scene: &Scene) -> String {
+    let names: Vec<&str> = scene.light_names.iter().map(String::as_str).collect();
+    format!("{} emitting primitives: {}", scene.lights.len(), list(&names))
+}
+
+fn by_kind(scene: &Scene, kind: MaterialKind) -> (bool, String) {
+    let used = materials(scene, |k| k == kind);
+    if used.is_empty() {
+        (false, format!("no shape has a {} material", kind.name()))
+    } else {
+        (true, format!("{}: {}", kind.name(), list(&used)))
+    }
+}
+
+fn materials(scene: &Scene, wanted: impl Fn(MaterialKind) -> bool) -> Vec<&str> {
+    let table = &scene.materials;
+    (0..table.len() as u32)
+        .filter(|&m| wanted(table.kind(m)))
+        .map(|m| table.name(m))
+        .collect()
+}
+
+/// A few names, and how many more there are.
+fn list(names: &[&str]) -> String {
+    const SHOWN: usize = 4;
+    let shown = names.iter().take(SHOWN).copied().collect::<Vec<_>>().join(", ");
+    if names.len() > SHOWN {
+        format!("{shown} and {} more", names.len() - SHOWN)
+    } else {
+        shown
+    }
+}

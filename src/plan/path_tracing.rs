@@ -1,0 +1,163 @@
+//! What path tracing in stages needs.
+
+use super::effect::{EffectPlan, is_on};
+use super::table::Extent;
+use super::{Effect, SystemId, SystemPlan, TableKind, TablePlan};
+use crate::geometry::{
+    HitDistance, HitInstance, HitPrimitive, HitUv, RayDirection, RayOrigin, SegmentTarget, SegmentTransmittance,
+};
+use crate::path::*;
+use crate::scene::Scene;
+
+/// Whether paths go beyond the first surface they meet.
+fn scatters(effects: &[EffectPlan]) -> bool {
+    use Effect::{DiffuseReflection, Refraction, SpecularReflection};
+    [DiffuseReflection, SpecularReflection, Refraction]
+        .into_iter()
+        .any(|effect| is_on(effects, effect))
+}
+
+pub(super) fn systems(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> {
+    use SystemId::*;
+    let mut systems = vec![SystemPlan::new(AssignPixels, "each chain samples one pixel per step")];
+    let mut add = |on: bool, id: SystemId, reason| {
+        if on {
+            systems.push(SystemPlan::new(id, reason));
+        }
+    };
+    let emission = is_on(effects, Effect::Emission);
+    let connects = is_on(effects, Effect::DirectLight);
+    add(emission, StartCameraPaths, "paths start at the camera");
+    add(emission, TraceLoop, "paths are traced until none waits for a ray");
+    add(emission, EmitRays, "active chains wait for a ray");
+    add(emission, IntersectRays, "rays have to meet something");
+    add(emission, ExtendPaths, "what rays meet becomes path vertices");
+    add(
+        connects,
+        ConnectLights,
+        "lights are sampled from vertices that scatter with a density",
+    );
+    add(
+        connects,
+        TransmitSegments,
+        "what stands between vertex and light has to be known",
+    );
+    add(
+        is_on(effects, Effect::DiffuseReflection),
+        ScatterDiffuse,
+        "a shape has a diffuse material",
+    );
+    add(
+        is_on(effects, Effect::SpecularReflection),
+        ScatterConductor,
+        "a shape has a conductor material",
+    );
+    add(
+        is_on(effects, Effect::Refraction),
+        ScatterDielectric,
+        "a shape has a dielectric material",
+    );
+    let roulette = scene.max_depth > roulette::FIRST_DEPTH;
+    let reason = if roulette {
+        "paths go on, beyond depth 5 by roulette"
+    } else {
+        "paths go on until max_depth, before roulette"
+    };
+    add(scatters(effects), ContinuePaths, reason);
+    add(
+        emission,
+        GatherContribution,
+        "a path's light is the sum over its vertices",
+    );
+    add(true, AcceptAlways, "samples are independent: every proposal is taken");
+    add(true, SplatSamples, "samples go to the film");
+    systems
+}
+
+pub(super) fn tables(scene: &Scene, effects: &[EffectPlan]) -> Vec<TablePlan> {
+    let emission = is_on(effects, Effect::Emission);
+    let mut tables = vec![chains(effects)];
+    if emission {
+        tables.push(proposals(scene, effects));
+        tables.push(rays(effects));
+    }
+    tables
+}
+
+fn chains(effects: &[EffectPlan]) -> TablePlan {
+    let mut table = TablePlan::new(TableKind::Chains, Extent::PerChain(1));
+    table
+        .column::<ChainKey>("draws are keyed by it")
+        .column::<FilmPixel>("the pixel that a step's sample counts for")
+        .column::<Contribution>("a step's sample")
+        .column::<BookedWeight>("what the decision booked")
+        .column::<Decisions>("every chain decides exactly once a step");
+    if is_on(effects, Effect::Emission) {
+        table
+            .column::<Direction>("rays are emitted along it")
+            .column::<PathLength>("paths have different lengths")
+            .column::<ActiveList>("chains that wait for a ray");
+    }
+    if is_on(effects, Effect::DirectLight) {
+        table.column::<ConnectList>("vertices that wait for a light");
+    }
+    if is_on(effects, Effect::DiffuseReflection) {
+        table.column::<DiffuseList>("one scatter system per material model");
+    }
+    if is_on(effects, Effect::SpecularReflection) {
+        table.column::<ConductorList>("one scatter system per material model");
+    }
+    if is_on(effects, Effect::Refraction) {
+        table
+            .column::<DielectricList>("one scatter system per material model")
+            .column::<RadianceScale>("roulette must not take the scale of refraction for a loss");
+    }
+    if scatters(effects) {
+        table
+            .column::<Throughput>("roulette judges paths by it")
+            .column::<ScatteredList>("scattered chains wait for roulette");
+    }
+    table
+}
+
+fn proposals(scene: &Scene, effects: &[EffectPlan]) -> TablePlan {
+    let mut table = TablePlan::new(TableKind::Proposals, Extent::PerChain(scene.max_depth + 1));
+    table
+        .column::<VertexKind>("lens, surface, discrete")
+        .column::<VertexPosition>("rays and segments start there")
+        .column::<VertexNormal>("sides and offsets")
+        .column::<VertexOffset>("rays start off the surface")
+        .column::<VertexRatio>("f/p of scattering")
+        .column::<VertexDensity>("weights light met by chance against light sampled")
+        .column::<VertexEmission>("light met by scattering");
+    if scatters(effects) {
+        table
+            .column::<VertexShadingNormal>("materials scatter about it")
+            .column::<VertexMaterial>("which material scatters")
+            .column::<VertexInstance>("the path's surfaces by name")
+            .column::<VertexPrimitive>("the path's surfaces by name")
+            .column::<VertexUv>("the path's surfaces by name");
+    }
+    if is_on(effects, Effect::DirectLight) {
+        table.column::<VertexConnection>("light connected to");
+    }
+    table
+}
+
+fn rays(effects: &[EffectPlan]) -> TablePlan {
+    let mut table = TablePlan::new(TableKind::Rays, Extent::PerChain(1));
+    table
+        .column::<RayChain>("whose ray it is")
+        .column::<RayOrigin>("where it starts")
+        .column::<RayDirection>("where it goes")
+        .column::<HitDistance>("the nearest hit wins")
+        .column::<HitInstance>("what was hit")
+        .column::<HitPrimitive>("what was hit")
+        .column::<HitUv>("where on it");
+    if is_on(effects, Effect::DirectLight) {
+        table
+            .column::<SegmentTarget>("segments end on a light")
+            .column::<SegmentTransmittance>("what passes along a segment");
+    }
+    table
+}

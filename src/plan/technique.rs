@@ -1,0 +1,92 @@
+//! Techniques: ways to estimate the picture.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// A way to estimate the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Technique {
+    /// Path tracing with next-event estimation, multiple importance sampling and Russian roulette, in stages over tables.
+    #[default]
+    Pt,
+    /// The same estimator traced depth first, one path after another: the oracle of the staged one, and its baseline.
+    PtReference,
+}
+
+/// No technique has this name.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no technique `{name}`; techniques are {}{}", names(), hint(.nearest))]
+pub struct UnknownTechnique {
+    /// The name that was asked for.
+    pub name: String,
+    /// The nearest name there is, if one is near.
+    pub nearest: Option<&'static str>,
+}
+
+fn names() -> String {
+    Technique::ALL.map(|t| format!("`{t}`")).join(", ")
+}
+
+fn hint(nearest: &Option<&'static str>) -> String {
+    nearest
+        .map(|name| format!(" (did you mean `{name}`?)"))
+        .unwrap_or_default()
+}
+
+impl Technique {
+    /// Every technique.
+    pub const ALL: [Self; 2] = [Self::Pt, Self::PtReference];
+
+    /// The name on the command line and in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Pt => "pt",
+            Self::PtReference => "pt-reference",
+        }
+    }
+}
+
+impl fmt::Display for Technique {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Technique {
+    type Err = UnknownTechnique;
+
+    fn from_str(name: &str) -> Result<Self, UnknownTechnique> {
+        Self::ALL
+            .into_iter()
+            .find(|t| t.name() == name)
+            .ok_or_else(|| UnknownTechnique {
+                name: name.to_owned(),
+                nearest: Self::ALL
+                    .map(|t| (strsim::damerau_levenshtein(t.name(), name), t.name()))
+                    .into_iter()
+                    .filter(|(distance, known)| *distance <= known.len() / 2)
+                    .min()
+                    .map(|(_, known)| known),
+            })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_read_back() {
+        for technique in Technique::ALL {
+            assert_eq!(technique.name().parse(), Ok(technique));
+        }
+    }
+
+    #[test]
+    fn a_wrong_name_is_answered_with_the_nearest() {
+        let error = "pt-refernce".parse::<Technique>().expect_err("misspelt");
+        assert_eq!(error.nearest, Some("pt-reference"));
+        assert!(error.to_string().ends_with("(did you mean `pt-reference`?)"), "{error}");
+    }
+}

@@ -1,0 +1,87 @@
+//! A tile's world: tables and schedules exactly as the plan lists them.
+
+use crate::film::Film;
+use crate::path::{ChainTable, ProposalTable, RayTable};
+use crate::plan::{Plan, TableKind};
+use crate::scene::Scene;
+use crate::systems::tile::{Counters, FilmRef, Queues, SceneRef, TilePlace};
+use crate::systems::{Profile, Step, build_schedules};
+use bevy_ecs::world::World;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// One bevy world with the tables and schedules of a plan, through which tiles pass.
+pub struct TileWorld {
+    world: World,
+}
+
+impl TileWorld {
+    /// Builds the tables and the schedules that `plan` lists.
+    #[must_use]
+    pub fn new(plan: &Plan, scene: &Arc<Scene>, film: &Arc<Film>, seed: u64) -> Self {
+        let mut world = World::new();
+        for table in &plan.tables {
+            for _ in 0..table.rows {
+                let mut row = match table.kind {
+                    TableKind::Chains => world.spawn(ChainTable),
+                    TableKind::Proposals => world.spawn(ProposalTable),
+                    TableKind::Rays => world.spawn(RayTable),
+                };
+                for column in &table.columns {
+                    (column.spec.insert)(&mut row);
+                }
+            }
+        }
+        world.insert_resource(SceneRef(Arc::clone(scene)));
+        world.insert_resource(FilmRef(Arc::clone(film)));
+        let place = TilePlace {
+            seed,
+            first_chain: 0,
+            chains: 0,
+            capacity: plan.tile_size,
+            step: 0,
+        };
+        world.insert_resource(place);
+        world.init_resource::<Queues>();
+        world.init_resource::<Counters>();
+        build_schedules(plan, &mut world);
+        Self { world }
+    }
+
+    /// Runs the given steps of the tile whose first chain is `first_chain`.
+    pub fn run(&mut self, first_chain: u32, chains: u32, steps: Range<u64>) {
+        for step in steps {
+            let mut place = self.world.resource_mut::<TilePlace>();
+            (place.first_chain, place.chains, place.step) = (first_chain, chains, step);
+            self.world.run_schedule(Step);
+        }
+    }
+
+    /// What this world has counted.
+    #[must_use]
+    pub fn counters(&self) -> Counters {
+        *self.world.resource::<Counters>()
+    }
+
+    /// What this world's systems have cost.
+    #[must_use]
+    pub fn profile(&self) -> &Profile {
+        self.world.resource::<Profile>()
+    }
+
+    /// Records up to `count` single runs of systems from now on.
+    pub fn record_spans(&mut self, count: usize) {
+        self.world.resource_mut::<Profile>().spans = Vec::with_capacity(count);
+    }
+
+    /// The world itself, to read back what was built.
+    #[must_use]
+    pub const fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The world itself, for queries.
+    pub const fn world_mut(&mut self) -> &mut World {
+        &mut self.world
+    }
+}

@@ -1,0 +1,116 @@
+//! What the systems of a tile share: where the tile stands, what it reads, how long its lists are, what it counts.
+//!
+//! None of it is a table: tables are columns.
+
+use crate::film::Film;
+use crate::path::{VERTEX_DISCRETE, VERTEX_LENS};
+use crate::sampling::StreamKey;
+use crate::scene::Scene;
+use bevy_ecs::resource::Resource;
+use std::sync::Arc;
+
+/// The scene, shared by all tiles.
+#[derive(Resource, Clone)]
+pub struct SceneRef(pub Arc<Scene>);
+
+/// The film, shared by all tiles.
+#[derive(Resource, Clone)]
+pub struct FilmRef(pub Arc<Film>);
+
+/// Which chains and which step the tile is at.
+#[derive(Resource, Clone, Copy, Debug)]
+pub struct TilePlace {
+    /// Seed of the render.
+    pub seed: u64,
+    /// Global number of the tile's first chain.
+    pub first_chain: u32,
+    /// Chains in use; the last tile of a render may have fewer than its capacity.
+    pub chains: u32,
+    /// Chains that the tables have room for: the distance between a vertex and the next of the same chain.
+    pub capacity: u32,
+    /// The step about to run, counted from 0 over the whole render.
+    pub step: u64,
+}
+
+impl TilePlace {
+    /// Number of the vertex at `depth` of chain `chain` in a vertex table.
+    #[inline]
+    #[must_use]
+    pub const fn vertex(&self, chain: usize, depth: u32) -> usize {
+        depth as usize * self.capacity as usize + chain
+    }
+
+    /// The key of the chain's random streams, from the bits that its column keeps.
+    #[inline]
+    #[must_use]
+    pub const fn key(&self, chain: usize, bits: u64) -> StreamKey {
+        StreamKey::from_bits(bits, self.first_chain + chain as u32)
+    }
+}
+
+/// Lengths of the dense lists and queues.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+pub struct Queues {
+    /// Chains in [`ActiveList`](crate::path::ActiveList).
+    pub active: usize,
+    /// Chains in [`ConnectList`](crate::path::ConnectList).
+    pub connect: usize,
+    /// Chains in [`DiffuseList`](crate::path::DiffuseList).
+    pub diffuse: usize,
+    /// Chains in [`ConductorList`](crate::path::ConductorList).
+    pub conductor: usize,
+    /// Chains in [`DielectricList`](crate::path::DielectricList).
+    pub dielectric: usize,
+    /// Chains in [`ScatteredList`](crate::path::ScatteredList).
+    pub scattered: usize,
+    /// Rays in the ray table.
+    pub rays: usize,
+    /// Segments in the ray table.
+    pub segments: usize,
+}
+
+/// What a tile world has counted since it was built.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Steps that the tile has run.
+    pub steps: u64,
+    /// Decisions taken: one per chain and step.
+    pub decisions: u64,
+    /// Rays traced to their closest hit.
+    pub rays: u64,
+    /// Segments traced for their transmittance.
+    pub segments: u64,
+    /// Surface vertices appended to paths.
+    pub vertices: u64,
+    /// Contributions that were infinite or not a number, and were booked as black.
+    pub non_finite: u64,
+    /// The first chain, and its step, with such a contribution.
+    pub first_non_finite: Option<(u32, u64)>,
+}
+
+impl Counters {
+    /// The sum of two tiles' counts.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            steps: self.steps + other.steps,
+            decisions: self.decisions + other.decisions,
+            rays: self.rays + other.rays,
+            segments: self.segments + other.segments,
+            vertices: self.vertices + other.vertices,
+            non_finite: self.non_finite + other.non_finite,
+            // The least by step, so that it does not depend on how tiles were dealt to worlds.
+            first_non_finite: match (self.first_non_finite, other.first_non_finite) {
+                (Some(a), Some(b)) => Some(if (b.1, b.0) < (a.1, a.0) { b } else { a }),
+                (a, b) => a.or(b),
+            },
+        }
+    }
+}
+
+/// Whether light met after a vertex of this kind could have been found by sampling lights there.
+#[inline]
+#[must_use]
+pub const fn connectable(kind: u32) -> bool {
+    kind != VERTEX_LENS && kind != VERTEX_DISCRETE
+}

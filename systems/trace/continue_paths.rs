@@ -1,0 +1,50 @@
+//! Who goes on.
+
+use super::super::tile::{Queues, SceneRef, TilePlace};
+use crate::path::*;
+use crate::sampling::Purpose;
+use crate::table::{Read, Rows, Write};
+use bevy_ecs::system::{Res, ResMut};
+
+/// Plays Russian roulette for every scattered chain, and lists the survivors as active.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "a system's parameters are the columns that it touches"
+)]
+pub fn continue_paths(
+    scene: Res<SceneRef>,
+    place: Res<TilePlace>,
+    mut queues: ResMut<Queues>,
+    scattered: Read<ScatteredList, ChainTable>,
+    keys: Read<ChainKey, ChainTable>,
+    lengths: Read<PathLength, ChainTable>,
+    scales: Read<RadianceScale, ChainTable>,
+    mut throughputs: Write<Throughput, ChainTable>,
+    mut active: Write<ActiveList, ChainTable>,
+    mut ratios: Write<VertexRatio, ProposalTable>,
+) {
+    debug_assert!(scene.0.max_depth > 1);
+    let (scattered, keys, lengths, scales) = (scattered.rows(), keys.rows(), lengths.rows(), scales.rows());
+    let (throughputs, active, ratios) = (throughputs.rows(), active.rows(), ratios.rows());
+    let mut survivors = 0;
+    for entry in 0..queues.scattered {
+        let chain = scattered.at(entry) as usize;
+        let depth = lengths.at(chain);
+        let throughput = throughputs.at(chain);
+        let scale = if scales.is_empty() { 1.0 } else { scales.at(chain) };
+        let survival = roulette::survival(depth, throughput, scale);
+        if survival < 1.0 {
+            let mut stream = place.key(chain, keys.at(chain)).stream(Purpose::Roulette, depth);
+            if stream.next_f32() >= survival {
+                continue;
+            }
+            let vertex = place.vertex(chain, depth);
+            ratios.put(vertex, ratios.at(vertex) / survival);
+            throughputs.put(chain, throughput / survival);
+        }
+        active.put(survivors, chain as u32);
+        survivors += 1;
+    }
+    queues.active = survivors;
+    queues.scattered = 0;
+}

@@ -1,0 +1,194 @@
+//! The depth-first path tracer: one path after another, as most renderers work. It is the oracle of the staged one (with
+//! the same draws it must give the same light, bit for bit) and the honest baseline of its benchmark.
+
+use super::super::tile::{Counters, SceneRef, TilePlace, connectable};
+use crate::color::Rgb;
+use crate::geometry::{
+    Hit, HitColumns, HitDistance, HitInstance, HitPrimitive, HitUv, NO_HIT, NOT_EMITTING, RayColumns, RayDirection,
+    RayOrigin, SegmentColumns, SegmentTarget, SegmentTransmittance, SurfacePoint, offset_origin,
+};
+use crate::material::MaterialKind;
+use crate::path::*;
+use crate::sampling::{Purpose, StreamKey};
+use crate::scene::Scene;
+use crate::table::{Read, Rows, Write};
+use bevy_ecs::system::{Res, ResMut, SystemParam};
+use glam::Vec3;
+
+/// A ray table of one lane group, of which one ray is used.
+#[derive(SystemParam)]
+pub struct OneRay<'w, 's> {
+    origin: Write<'w, 's, RayOrigin, RayTable>,
+    direction: Write<'w, 's, RayDirection, RayTable>,
+    distance: Write<'w, 's, HitDistance, RayTable>,
+    instance: Write<'w, 's, HitInstance, RayTable>,
+    primitive: Write<'w, 's, HitPrimitive, RayTable>,
+    uv: Write<'w, 's, HitUv, RayTable>,
+    target: Write<'w, 's, SegmentTarget, RayTable>,
+    transmittance: Write<'w, 's, SegmentTransmittance, RayTable>,
+}
+
+/// The columns of [`OneRay`] as slices, with the scene they are traced against.
+struct Tracer<'a> {
+    scene: &'a Scene,
+    counters: &'a mut Counters,
+    origin: &'a mut [RayOrigin],
+    direction: &'a mut [RayDirection],
+    distance: &'a mut [HitDistance],
+    instance: &'a mut [HitInstance],
+    primitive: &'a mut [HitPrimitive],
+    uv: &'a mut [HitUv],
+    target: &'a mut [SegmentTarget],
+    transmittance: &'a mut [SegmentTransmittance],
+}
+
+/// Traces one whole path per chain and writes its contribution.
+pub fn trace_depth_first(
+    scene: Res<SceneRef>,
+    place: Res<TilePlace>,
+    mut counters: ResMut<Counters>,
+    keys: Read<ChainKey, ChainTable>,
+    pixels: Read<FilmPixel, ChainTable>,
+    mut contributions: Write<Contribution, ChainTable>,
+    mut ray: OneRay,
+) {
+    let (keys, pixels, contributions) = (keys.rows(), pixels.rows(), contributions.rows());
+    let mut tracer = Tracer {
+        scene: &scene.0,
+        counters: &mut counters,
+        origin: ray.origin.rows(),
+        direction: ray.direction.rows(),
+        distance: ray.distance.rows(),
+        instance: ray.instance.rows(),
+        primitive: ray.primitive.rows(),
+        uv: ray.uv.rows(),
+        target: ray.target.rows(),
+        transmittance: ray.transmittance.rows(),
+    };
+    for chain in 0..place.chains as usize {
+        let key = place.key(chain, keys.at(chain));
+        contributions.put(chain, tracer.radiance(key, pixels.at(chain)));
+    }
+}
+
+impl Tracer<'_> {
+    /// The radiance that one path through a pixel estimates.
+    fn radiance(&mut self, key: StreamKey, pixel: u32) -> Rgb {
+        let scene = self.scene;
+        let mut direction = scene.camera.direction(film_position(scene, key, pixel));
+        let mut position = scene.camera.origin();
+        let mut origin = position;
+        let (mut radiance, mut throughput, mut judged, mut scale) = (Rgb::BLACK, Rgb::ONE, Rgb::ONE, 1.0);
+        let (mut density, mut kind) = (0.0, VERTEX_LENS);
+        for depth in 1..=scene.max_depth {
+            let Some(point) = self.closest(origin, direction) else {
+                break;
+            };
+            radiance += throughput * self.emission(&point, direction, position, density, kind);
+            if depth == scene.max_depth {
+                break;
+            }
+            let scatterer = Scatterer {
+                position: point.position,
+                normal: point.geometric_normal,
+                shading_normal: point.shading_normal,
+                offset: point.offset,
+                material: point.material,
+                direction,
+            };
+            let model = scene.materials.kind(point.material);
+            if !model.is_discrete()
+                && let Some(connection) = scatterer.connect(scene, key, depth)
+            {
+                let passed = self.transmittance(connection.origin, connection.target);
+                radiance += throughput * (connection.value * passed);
+            }
+            let outcome = scatterer.scatter(|wi| {
+                let mut stream = key.stream(Purpose::Scatter, depth);
+                match model {
+                    MaterialKind::Diffuse => scene.materials.sample_diffuse(point.material, wi, stream.next_pair()),
+                    MaterialKind::Conductor => scene.materials.sample_conductor(point.material, wi),
+                    MaterialKind::Dielectric => {
+                        scene.materials.sample_dielectric(point.material, wi, stream.next_f32())
+                    }
+                }
+            });
+            let Some((onward, outcome)) = outcome else { break };
+            scale *= outcome.relative_ior * outcome.relative_ior;
+            judged *= outcome.ratio;
+            let survival = roulette::survival(depth, judged, scale);
+            let mut ratio = outcome.ratio;
+            if survival < 1.0 {
+                if key.stream(Purpose::Roulette, depth).next_f32() >= survival {
+                    break;
+                }
+                ratio = ratio / survival;
+                judged = judged / survival;
+            }
+            throughput *= ratio;
+            density = outcome.density;
+            kind = if outcome.discrete {
+                VERTEX_DISCRETE
+            } else {
+                VERTEX_SURFACE
+            };
+            (position, direction) = (point.position, onward);
+            origin = offset_origin(point.position, point.geometric_normal, point.offset, direction);
+        }
+        radiance
+    }
+
+    /// Light that `point` sends back along the path, weighted against sampling it from the vertex before.
+    fn emission(&self, point: &SurfacePoint, direction: Vec3, previous: Vec3, density: f32, kind: u32) -> Rgb {
+        if point.light == NOT_EMITTING {
+            return Rgb::BLACK;
+        }
+        let lights = &self.scene.lights;
+        let emitted = lights.radiance(point.light, point.geometric_normal, -direction);
+        if !connectable(kind) {
+            return emitted;
+        }
+        let sampled = lights.density(point.light, previous, point.position, point.geometric_normal);
+        emitted * mis::power_heuristic(density, sampled)
+    }
+
+    fn closest(&mut self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
+        self.origin.put(0, origin);
+        self.direction.put(0, direction);
+        let rays = RayColumns {
+            origin: self.origin,
+            direction: self.direction,
+            len: 1,
+        };
+        let hits = HitColumns {
+            distance: self.distance,
+            instance: self.instance,
+            primitive: self.primitive,
+            uv: self.uv,
+        };
+        self.scene.geometry.closest_hits(rays, hits);
+        self.counters.rays += 1;
+        let instance = self.instance.at(0);
+        (instance != NO_HIT).then(|| {
+            let hit = Hit {
+                instance,
+                primitive: self.primitive.at(0),
+                uv: self.uv.at(0),
+            };
+            self.scene.geometry.surface_point(hit)
+        })
+    }
+
+    fn transmittance(&mut self, origin: Vec3, target: Vec3) -> Rgb {
+        self.origin.put(0, origin);
+        self.target.put(0, target);
+        let segments = SegmentColumns {
+            origin: self.origin,
+            target: self.target,
+            len: 1,
+        };
+        self.scene.geometry.transmittances(segments, self.transmittance);
+        self.counters.segments += 1;
+        self.transmittance.at(0)
+    }
+}

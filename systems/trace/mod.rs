@@ -1,0 +1,26 @@
+//! The trace stage: the one loop in which rays are traced, whoever asked for them.
+
+mod connect_lights;
+mod continue_paths;
+mod depth_first;
+mod emit_rays;
+mod extend_paths;
+mod intersect_rays;
+mod scatter;
+mod scatter_conductor;
+mod scatter_dielectric;
+mod scatter_diffuse;
+mod trace_loop;
+mod transmit_segments;
+
+pub use connect_lights::connect_lights;
+pub use continue_paths::continue_paths;
+pub use depth_first::trace_depth_first;
+pub use emit_rays::emit_rays;
+pub use extend_paths::extend_paths;
+pub use intersect_rays::intersect_rays;
+pub use scatter_conductor::scatter_conductor;
+pub use scatter_dielectric::scatter_dielectric;
+pub use scatter_diffuse::scatter_diffuse;
+pub use trace_loop::trace_loop;
+pub use transmit_segments::transmit_segments;

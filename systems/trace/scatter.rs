@@ -1,0 +1,142 @@
+//! What the scatter systems share: reading the surface point that a chain stands on, and writing where it goes on.
+
+use super::super::tile::{Queues, TilePlace};
+use crate::material::Scattered;
+use crate::path::*;
+use crate::table::{Read, Rows, Write};
+use bevy_ecs::system::SystemParam;
+
+/// The columns that describe the surface point a chain stands on.
+#[derive(SystemParam)]
+pub struct Scatterers<'w, 's> {
+    lengths: Read<'w, 's, PathLength, ChainTable>,
+    directions: Read<'w, 's, Direction, ChainTable>,
+    surface: Surface<'w, 's>,
+}
+
+/// The surface point's columns in the vertex table.
+#[derive(SystemParam)]
+struct Surface<'w, 's> {
+    positions: Read<'w, 's, VertexPosition, ProposalTable>,
+    normals: Read<'w, 's, VertexNormal, ProposalTable>,
+    shading_normals: Read<'w, 's, VertexShadingNormal, ProposalTable>,
+    offsets: Read<'w, 's, VertexOffset, ProposalTable>,
+    materials: Read<'w, 's, VertexMaterial, ProposalTable>,
+}
+
+/// [`Scatterers`] as slices.
+pub struct ScattererColumns<'a> {
+    lengths: &'a [PathLength],
+    directions: &'a [Direction],
+    surface: SurfaceColumns<'a>,
+}
+
+struct SurfaceColumns<'a> {
+    positions: &'a [VertexPosition],
+    normals: &'a [VertexNormal],
+    shading_normals: &'a [VertexShadingNormal],
+    offsets: &'a [VertexOffset],
+    materials: &'a [VertexMaterial],
+}
+
+impl Surface<'_, '_> {
+    fn columns(&self) -> SurfaceColumns<'_> {
+        SurfaceColumns {
+            positions: self.positions.rows(),
+            normals: self.normals.rows(),
+            shading_normals: self.shading_normals.rows(),
+            offsets: self.offsets.rows(),
+            materials: self.materials.rows(),
+        }
+    }
+}
+
+impl Scatterers<'_, '_> {
+    /// The columns as slices.
+    pub fn columns(&self) -> ScattererColumns<'_> {
+        ScattererColumns {
+            lengths: self.lengths.rows(),
+            directions: self.directions.rows(),
+            surface: self.surface.columns(),
+        }
+    }
+}
+
+impl SurfaceColumns<'_> {
+    #[inline]
+    fn at(&self, vertex: usize, direction: glam::Vec3) -> Scatterer {
+        Scatterer {
+            position: self.positions.at(vertex),
+            normal: self.normals.at(vertex),
+            shading_normal: self.shading_normals.at(vertex),
+            offset: self.offsets.at(vertex),
+            material: self.materials.at(vertex),
+            direction,
+        }
+    }
+}
+
+impl ScattererColumns<'_> {
+    /// Depth, vertex number and surface point of a chain's last vertex.
+    #[inline]
+    pub fn at(&self, place: &TilePlace, chain: usize) -> (u32, usize, Scatterer) {
+        let depth = self.lengths.at(chain);
+        let vertex = place.vertex(chain, depth);
+        (depth, vertex, self.surface.at(vertex, self.directions.at(chain)))
+    }
+}
+
+/// The columns that scattering writes.
+#[derive(SystemParam)]
+pub struct Outcomes<'w, 's> {
+    lengths: Read<'w, 's, PathLength, ChainTable>,
+    surface: Surface<'w, 's>,
+    kinds: Write<'w, 's, VertexKind, ProposalTable>,
+    ratios: Write<'w, 's, VertexRatio, ProposalTable>,
+    densities: Write<'w, 's, VertexDensity, ProposalTable>,
+    directions: Write<'w, 's, Direction, ChainTable>,
+    throughputs: Write<'w, 's, Throughput, ChainTable>,
+    scales: Write<'w, 's, RadianceScale, ChainTable>,
+    scattered: Write<'w, 's, ScatteredList, ChainTable>,
+}
+
+impl Outcomes<'_, '_> {
+    /// Scatters the listed chains, `count` of them: `sample` draws a direction for a material number, a local incoming
+    /// direction, a chain and a depth. A path that is absorbed, or whose direction leaks through the surface, ends.
+    #[inline]
+    pub fn scatter(
+        &mut self,
+        place: &TilePlace,
+        queues: &mut Queues,
+        count: usize,
+        list: impl Fn(usize) -> u32,
+        sample: impl Fn(u32, glam::Vec3, usize, u32) -> Option<Scattered>,
+    ) {
+        let (lengths, surface) = (self.lengths.rows(), self.surface.columns());
+        let (kinds, ratios, densities) = (self.kinds.rows(), self.ratios.rows(), self.densities.rows());
+        let (directions, throughputs) = (self.directions.rows(), self.throughputs.rows());
+        let (scales, scattered) = (self.scales.rows(), self.scattered.rows());
+        for entry in 0..count {
+            let chain = list(entry) as usize;
+            let depth = lengths.at(chain);
+            let vertex = place.vertex(chain, depth);
+            let scatterer = surface.at(vertex, directions.at(chain));
+            let Some((direction, outcome)) = scatterer.scatter(|wi| sample(scatterer.material, wi, chain, depth))
+            else {
+                continue;
+            };
+            if outcome.discrete {
+                kinds.put(vertex, VERTEX_DISCRETE);
+            }
+            ratios.put(vertex, outcome.ratio);
+            densities.put(vertex, outcome.density);
+            directions.put(chain, direction);
+            throughputs.put(chain, throughputs.at(chain) * outcome.ratio);
+            if !scales.is_empty() {
+                scales.put(chain, scales.at(chain) * (outcome.relative_ior * outcome.relative_ior));
+            }
+            scattered.put(queues.scattered, chain as u32);
+            queues.scattered += 1;
+        }
+    }
+}
