@@ -1,3 +1,44 @@
 //! The program's commands, one file each.
 
 pub mod compare;
+mod load;
+mod output;
+pub mod plan;
+pub mod profile;
+pub mod render;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// An offline renderer for difficult light.
+#[derive(Parser, Debug)]
+#[command(name = "chainlight", version, about, max_term_width = 100)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    /// Render a scene to an OpenEXR file and a PNG beside it.
+    Render(render::RenderArgs),
+    /// Show what a render of a scene would consist of, and why.
+    Plan(plan::PlanArgs),
+    /// Render for a while and show what every stage costs.
+    Profile(profile::ProfileArgs),
+    /// Compare a picture with a reference of the same size.
+    Compare(compare::CompareArgs),
+}
+
+/// Runs the command that the arguments name.
+///
+/// # Errors
+/// Whatever the command cannot do, with what to do about it.
+pub fn run(cli: &Cli) -> miette::Result<ExitCode> {
+    match &cli.command {
+        Command::Render(args) => render::run(args),
+        Command::Plan(args) => plan::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Profile(args) => profile::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Compare(args) => compare::run(args).map(|()| ExitCode::SUCCESS),
+    }
+}

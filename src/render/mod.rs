@@ -1,8 +1,10 @@
 //! Rendering: tiles built from a plan, dealt to threads, burst by burst.
 
+mod built;
 mod driver;
 mod tile_world;
 
+pub use built::{Built, BuiltColumn, BuiltTable, short};
 pub use driver::{Budget, Outcome, Progress, Stop, drive};
 pub use tile_world::TileWorld;
 
@@ -13,6 +15,7 @@ use crate::systems::SystemCost;
 use crate::systems::tile::Counters;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 /// Why a render cannot start.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
@@ -147,6 +150,12 @@ impl Render {
         let position = |id: SystemId| self.plan.systems.iter().position(|system| system.id == id);
         total.sort_by_key(|cost| position(cost.id));
         total
+    }
+
+    /// Wall time that threads have spent in steps, summed over them.
+    #[must_use]
+    pub fn busy_time(&self) -> Duration {
+        self.worlds.iter().map(|world| lock(world).busy()).sum()
     }
 
     /// Lets `look` see every thread's world.

@@ -9,10 +9,12 @@ use crate::systems::{Profile, Step, build_schedules};
 use bevy_ecs::world::World;
 use std::ops::Range;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// One bevy world with the tables and schedules of a plan, through which tiles pass.
 pub struct TileWorld {
     world: World,
+    busy: Duration,
 }
 
 impl TileWorld {
@@ -45,16 +47,27 @@ impl TileWorld {
         world.init_resource::<Queues>();
         world.init_resource::<Counters>();
         build_schedules(plan, &mut world);
-        Self { world }
+        Self {
+            world,
+            busy: Duration::ZERO,
+        }
     }
 
     /// Runs the given steps of the tile whose first chain is `first_chain`.
     pub fn run(&mut self, first_chain: u32, chains: u32, steps: Range<u64>) {
+        let start = Instant::now();
         for step in steps {
             let mut place = self.world.resource_mut::<TilePlace>();
             (place.first_chain, place.chains, place.step) = (first_chain, chains, step);
             self.world.run_schedule(Step);
         }
+        self.busy += start.elapsed();
+    }
+
+    /// Wall time spent in steps.
+    #[must_use]
+    pub const fn busy(&self) -> Duration {
+        self.busy
     }
 
     /// What this world has counted.

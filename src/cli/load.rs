@@ -1,0 +1,128 @@
+//! What the commands that take a scene have in common: its arguments, and loading it.
+
+use super::output::note;
+use crate::plan::{Plan, Technique};
+use crate::scene::{Scene, SceneOverrides, description::MAX_DEPTH_LIMIT, description::MAX_FILM_PIXELS};
+use crate::scene::{description::MAX_FILM_SIDE, flatten, read_scene};
+use clap::Args;
+use miette::{Result, WrapErr};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// A scene and how to render it.
+#[derive(Args, Clone, Debug)]
+pub struct SceneArgs {
+    /// The scene file: RON, or JSON by its extension
+    pub scene: PathBuf,
+    /// How to estimate the picture: pt, pt-reference [default: the scene's, or pt]
+    #[arg(long, value_name = "NAME")]
+    pub technique: Option<Technique>,
+    /// Film size in pixels instead of the scene's, such as 640x480
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<(u32, u32)>,
+    /// The most edges of a path instead of the scene's: 2 is direct light
+    #[arg(long, value_name = "EDGES", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_DEPTH_LIMIT)))]
+    pub max_depth: Option<u32>,
+    /// Chains per tile instead of as many as fit the cache; the picture does not depend on it
+    #[arg(long, value_name = "CHAINS", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub tile: Option<u32>,
+}
+
+/// A scene, ready to render, and how long that took.
+pub struct Loaded {
+    /// The compiled scene.
+    pub scene: Arc<Scene>,
+    /// The plan.
+    pub plan: Plan,
+    /// What the reader warned of, one line each.
+    pub warnings: Vec<String>,
+    /// From file to tables.
+    pub load_time: Duration,
+}
+
+impl SceneArgs {
+    /// Reads, compiles and plans. Warnings are printed to standard error.
+    ///
+    /// # Errors
+    /// A file that is no valid scene, or a technique that there is not.
+    pub fn load(&self) -> Result<Loaded> {
+        let start = Instant::now();
+        let source = read_scene(&self.scene)?;
+        let flattened = flatten(&source)?;
+        let named = source.description.settings.technique.as_deref();
+        let technique = match (self.technique, named) {
+            (Some(technique), _) => technique,
+            (None, Some(name)) => name
+                .parse()
+                .map_err(|error: crate::plan::UnknownTechnique| miette::miette!("{error}"))
+                .wrap_err_with(|| format!("{}: settings.technique", self.scene.display()))?,
+            (None, None) => Technique::default(),
+        };
+        let overrides = SceneOverrides {
+            size: self.size,
+            max_depth: self.max_depth,
+        };
+        let scene = Arc::new(Scene::compile(&source.description, &flattened, overrides)?);
+        let warnings: Vec<String> = flattened.warnings.iter().map(|warning| warning.plain()).collect();
+        for warning in &warnings {
+            note(&format!("warning: {warning}"));
+        }
+        let plan = Plan::new(&scene, technique, self.tile);
+        Ok(Loaded {
+            scene,
+            plan,
+            warnings,
+            load_time: start.elapsed(),
+        })
+    }
+}
+
+/// Settings that shape the picture, as its metadata names them.
+pub fn settings(loaded: &Loaded) -> String {
+    let Scene {
+        width,
+        height,
+        max_depth,
+        filter,
+        ..
+    } = &*loaded.scene;
+    format!("size={width}x{height} max_depth={max_depth} filter={filter}")
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let form = || "expected WIDTHxHEIGHT in pixels, such as 640x480".to_owned();
+    let (width, height) = text.split_once(['x', 'X']).ok_or_else(form)?;
+    let side = |digits: &str| digits.trim().parse::<u32>().map_err(|_| form());
+    let (width, height) = (side(width)?, side(height)?);
+    if !(1..=MAX_FILM_SIDE).contains(&width) || !(1..=MAX_FILM_SIDE).contains(&height) {
+        return Err(format!("each side must be in 1..={MAX_FILM_SIDE} pixels"));
+    }
+    if u64::from(width) * u64::from(height) > MAX_FILM_PIXELS {
+        return Err(format!("{width}x{height} has more than {MAX_FILM_PIXELS} pixels"));
+    }
+    Ok((width, height))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::parse_size;
+
+    #[test]
+    fn sizes_are_two_numbers_within_bounds() {
+        assert_eq!(parse_size("640x480"), Ok((640, 480)));
+        for bad in [
+            "640",
+            "x",
+            "640x",
+            "0x5",
+            "-1x5",
+            "1e3x5",
+            "65537x1",
+            "65536x65536",
+            "4x4x4",
+        ] {
+            assert!(parse_size(bad).is_err(), "{bad}");
+        }
+    }
+}

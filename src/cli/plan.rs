@@ -1,0 +1,214 @@
+//! `plan`: what a render would consist of, read back from what was really built.
+
+use super::load::SceneArgs;
+use super::output::{bytes, print};
+use crate::film::Film;
+use crate::plan::{Plan, Stage, TablePlan};
+use crate::render::{Built, BuiltTable, TileWorld, short};
+use clap::Args;
+use miette::{IntoDiagnostic, Result, miette};
+use serde::Serialize;
+use std::fmt::Write;
+use std::sync::Arc;
+
+/// Arguments of `plan`.
+#[derive(Args, Clone, Debug)]
+pub struct PlanArgs {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// A plan as it was built, with the reasons that the plan gives.
+#[derive(Serialize)]
+struct Report<'a> {
+    technique: &'static str,
+    effects: Vec<EffectRow<'a>>,
+    systems: Vec<SystemRow<'a>>,
+    tables: Vec<TableRow<'a>>,
+    tile_chains: u32,
+    tile_reason: &'a str,
+    tile_bytes: u64,
+    bytes_per_chain: u64,
+    tiles: u32,
+    tracer: &'static str,
+    tracer_reason: &'a str,
+    tree_bytes: u64,
+    film_bytes: u64,
+}
+
+#[derive(Serialize)]
+struct EffectRow<'a> {
+    name: &'static str,
+    on: bool,
+    reason: &'a str,
+}
+
+#[derive(Serialize)]
+struct SystemRow<'a> {
+    name: &'a str,
+    stage: &'static str,
+    in_trace_loop: bool,
+    reason: &'static str,
+}
+
+#[derive(Serialize)]
+struct TableRow<'a> {
+    name: &'static str,
+    rows: usize,
+    lanes: usize,
+    bytes: u64,
+    columns: Vec<ColumnRow<'a>>,
+}
+
+#[derive(Serialize)]
+struct ColumnRow<'a> {
+    name: &'a str,
+    bytes: usize,
+    reason: &'static str,
+}
+
+/// Prints the plan.
+///
+/// # Errors
+/// A scene that cannot be loaded.
+pub fn run(args: &PlanArgs) -> Result<()> {
+    let loaded = args.scene.load()?;
+    // A world is built as a render would build it, but for the film, whose size is known without making it.
+    let film = Arc::new(Film::new(1, 1, 1.0)?);
+    let tile = TileWorld::new(&loaded.plan, &loaded.scene, &film, 0);
+    let built = Built::read(&tile);
+    built
+        .matches(&loaded.plan)
+        .map_err(|difference| miette!("the tables built are not those planned: {difference}"))?;
+    let report = report(&loaded.plan, &built, loaded.scene.pixel_count());
+    if args.json {
+        print(&serde_json::to_string_pretty(&report).into_diagnostic()?)
+    } else {
+        print(&text(&report))
+    }
+}
+
+fn report<'a>(plan: &'a Plan, built: &'a Built, chains: u32) -> Report<'a> {
+    let effects = plan.effects.iter();
+    let inner = built.trace_loop.iter().map(|name| (name, true));
+    let mut systems: Vec<SystemRow<'_>> = Vec::new();
+    for (name, in_loop) in built.step.iter().map(|name| (name, false)) {
+        systems.extend(system_row(plan, name, in_loop));
+        if short(name) == "trace_loop" {
+            systems.extend(
+                inner
+                    .clone()
+                    .filter_map(|(name, in_loop)| system_row(plan, name, in_loop)),
+            );
+        }
+    }
+    Report {
+        technique: plan.technique.name(),
+        effects: effects
+            .map(|e| EffectRow {
+                name: e.effect.name(),
+                on: e.on,
+                reason: &e.reason,
+            })
+            .collect(),
+        systems,
+        tables: built.tables.iter().filter_map(|table| table_row(plan, table)).collect(),
+        tile_chains: plan.tile_size,
+        tile_reason: &plan.tile_reason,
+        tile_bytes: plan.tile_bytes(),
+        bytes_per_chain: plan.tile_bytes() / u64::from(plan.tile_size),
+        tiles: chains.div_ceil(plan.tile_size),
+        tracer: plan.tracer,
+        tracer_reason: &plan.tracer_reason,
+        tree_bytes: plan.tree_bytes,
+        film_bytes: plan.film_bytes,
+    }
+}
+
+fn system_row<'a>(plan: &Plan, name: &'a str, in_trace_loop: bool) -> Option<SystemRow<'a>> {
+    let name = short(name);
+    let planned = plan.systems.iter().find(|system| system.id.name() == name)?;
+    Some(SystemRow {
+        name,
+        stage: planned.id.stage().name(),
+        in_trace_loop,
+        reason: planned.reason,
+    })
+}
+
+fn table_row<'a>(plan: &Plan, built: &'a BuiltTable) -> Option<TableRow<'a>> {
+    let planned: &TablePlan = plan.tables.iter().find(|table| table.kind == built.kind)?;
+    let columns = built.columns.iter().filter_map(|column| {
+        let reason = planned
+            .columns
+            .iter()
+            .find(|c| (c.spec.type_name)() == column.type_name)?
+            .reason;
+        Some(ColumnRow {
+            name: short(&column.type_name),
+            bytes: column.bytes,
+            reason,
+        })
+    });
+    let lanes = crate::table::LANES;
+    let entry: usize = built.columns.iter().map(|column| column.bytes).sum();
+    Some(TableRow {
+        name: planned.kind.name(),
+        rows: built.rows,
+        lanes,
+        bytes: (entry * built.rows * lanes) as u64,
+        columns: columns.collect(),
+    })
+}
+
+fn text(report: &Report<'_>) -> String {
+    let mut out = format!("technique  {}\n\neffects\n", report.technique);
+    for effect in &report.effects {
+        let _ = writeln!(
+            out,
+            "  {:<20} {:<4} {}",
+            effect.name,
+            if effect.on { "on" } else { "off" },
+            effect.reason
+        );
+    }
+    out.push_str("\nsystems, in the order in which they run\n");
+    for stage in Stage::ALL {
+        for system in report.systems.iter().filter(|system| system.stage == stage.name()) {
+            let name = if system.in_trace_loop {
+                format!("  {}", system.name)
+            } else {
+                system.name.to_owned()
+            };
+            let _ = writeln!(out, "  {:<10} {:<26} {}", system.stage, name, system.reason);
+        }
+    }
+    for table in &report.tables {
+        let size = bytes(table.bytes);
+        let _ = writeln!(
+            out,
+            "\ntable {}: {} rows of {} lanes, {size}",
+            table.name, table.rows, table.lanes
+        );
+        for column in &table.columns {
+            let _ = writeln!(out, "  {:<22} {:>3} B  {}", column.name, column.bytes, column.reason);
+        }
+    }
+    let _ = write!(
+        out,
+        "\ntile       {} chains ({}), {} of tables, {} B a chain; {} tiles\ntracer     {} ({}), {}\nfilm       {}",
+        report.tile_chains,
+        report.tile_reason,
+        bytes(report.tile_bytes),
+        report.bytes_per_chain,
+        report.tiles,
+        report.tracer,
+        report.tracer_reason,
+        bytes(report.tree_bytes),
+        bytes(report.film_bytes)
+    );
+    out
+}

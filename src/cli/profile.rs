@@ -1,0 +1,239 @@
+//! `profile`: what every stage costs.
+
+use super::load::SceneArgs;
+use super::output::{count, print};
+use super::render::BudgetArgs;
+use crate::film::write_file;
+use crate::plan::{Stage, SystemId};
+use crate::render::{Budget, Render, drive};
+use crate::systems::Span;
+use clap::Args;
+use miette::{IntoDiagnostic, Result};
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
+
+/// How long to render where neither `--spp` nor `--time` is given.
+const DEFAULT_TIME: Duration = Duration::from_secs(5);
+
+/// System runs kept per thread for `--trace`.
+const TRACE_EVENTS: usize = 200_000;
+
+/// Arguments of `profile`.
+#[derive(Args, Clone, Debug)]
+pub struct ProfileArgs {
+    #[command(flatten)]
+    scene: SceneArgs,
+    #[command(flatten)]
+    budget: BudgetArgs,
+    /// Seed of all random numbers
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Threads; times are summed over them
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    threads: usize,
+    /// Write single runs of systems as trace events, for Perfetto or chrome://tracing
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// What a render cost. Times are summed over threads.
+#[derive(Serialize)]
+struct Report {
+    technique: &'static str,
+    threads: usize,
+    wall_seconds: f64,
+    steps: u64,
+    paths: u64,
+    rays: u64,
+    segments: u64,
+    vertices: u64,
+    ns_per_path: f64,
+    stages: Vec<Cost>,
+    systems: Vec<Cost>,
+    /// Time in the schedule around the systems: the price of running them from one.
+    schedule: Cost,
+}
+
+#[derive(Serialize)]
+struct Cost {
+    name: &'static str,
+    stage: &'static str,
+    runs: u64,
+    seconds: f64,
+    share: f64,
+    ns_per_path: f64,
+    /// Rays or segments that the system traced.
+    rays: u64,
+    ns_per_ray: Option<f64>,
+}
+
+/// Renders for a while and prints what it cost.
+///
+/// # Errors
+/// A scene that cannot be loaded, or a trace file that cannot be written.
+pub fn run(args: &ProfileArgs) -> Result<()> {
+    let loaded = args.scene.load()?;
+    let mut render = Render::new(Arc::clone(&loaded.scene), loaded.plan.clone(), args.seed, args.threads)?;
+    if args.trace.is_some() {
+        render.for_each_world(|_, world| world.record_spans(TRACE_EVENTS));
+    }
+    let start = Instant::now();
+    let outcome = drive(
+        &mut render,
+        args.budget.or(Budget::Time(DEFAULT_TIME)),
+        &AtomicBool::new(false),
+        &|_| {},
+    );
+    if let Some(path) = &args.trace {
+        write_file(path, &trace_events(&render, start)?)?;
+    }
+    let report = report(&render, outcome.elapsed);
+    if args.json {
+        print(&serde_json::to_string_pretty(&report).into_diagnostic()?)
+    } else {
+        print(&text(&report))
+    }
+}
+
+fn report(render: &Render, wall: Duration) -> Report {
+    let (costs, counters) = (render.costs(), render.counters());
+    let paths = counters.decisions;
+    let total = render.busy_time().as_nanos() as u64;
+    let cost = |name, stage: Stage, runs, nanoseconds: u64, rays: u64| Cost {
+        name,
+        stage: stage.name(),
+        runs,
+        seconds: nanoseconds as f64 * 1e-9,
+        share: nanoseconds as f64 / total.max(1) as f64,
+        ns_per_path: nanoseconds as f64 / paths.max(1) as f64,
+        rays,
+        ns_per_ray: (rays > 0).then(|| nanoseconds as f64 / rays as f64),
+    };
+    let traced = |id| match id {
+        SystemId::IntersectRays => counters.rays,
+        SystemId::TransmitSegments => counters.segments,
+        SystemId::TraceDepthFirst => counters.rays + counters.segments,
+        _ => 0,
+    };
+    let is_loop = |id| id == SystemId::TraceLoop;
+    let systems: Vec<Cost> = costs
+        .iter()
+        .filter(|c| !is_loop(c.id))
+        .map(|c| cost(c.id.name(), c.id.stage(), c.runs, c.nanoseconds, traced(c.id)))
+        .collect();
+    let stages = Stage::ALL.map(|stage| {
+        let here = || costs.iter().filter(|c| c.id.stage() == stage && !is_loop(c.id));
+        let runs = here().map(|c| c.runs).sum();
+        cost(
+            stage.name(),
+            stage,
+            runs,
+            here().map(|c| c.nanoseconds).sum(),
+            here().map(|c| traced(c.id)).sum(),
+        )
+    });
+    let in_systems: u64 = costs.iter().filter(|c| !is_loop(c.id)).map(|c| c.nanoseconds).sum();
+    Report {
+        technique: render.plan.technique.name(),
+        threads: render.threads(),
+        wall_seconds: wall.as_secs_f64(),
+        steps: render.steps(),
+        paths,
+        rays: counters.rays,
+        segments: counters.segments,
+        vertices: counters.vertices,
+        ns_per_path: total as f64 / paths.max(1) as f64,
+        stages: stages.into(),
+        systems,
+        schedule: cost(
+            "schedule",
+            Stage::Trace,
+            counters.steps,
+            total.saturating_sub(in_systems),
+            0,
+        ),
+    }
+}
+
+fn text(report: &Report) -> String {
+    let Report {
+        technique,
+        threads,
+        steps,
+        wall_seconds,
+        ..
+    } = report;
+    let mut out = format!(
+        "{technique}: {} paths ({steps} per pixel), {} rays, {} segments in {wall_seconds:.2} s on {threads} threads; {:.0} ns per path\n\n\
+         {:<10} {:<22} {:>9} {:>7} {:>9} {:>10} {:>10}\n",
+        count(report.paths as f64),
+        count(report.rays as f64),
+        count(report.segments as f64),
+        report.ns_per_path,
+        "stage",
+        "system",
+        "seconds",
+        "share",
+        "ns/path",
+        "rays",
+        "ns/ray"
+    );
+    let mut row = |stage: &str, name: &str, cost: &Cost| {
+        let rays = if cost.rays > 0 {
+            count(cost.rays as f64)
+        } else {
+            String::new()
+        };
+        let per_ray = cost.ns_per_ray.map(|ns| format!("{ns:.0}")).unwrap_or_default();
+        let _ = writeln!(
+            out,
+            "{stage:<10} {name:<22} {:>9.3} {:>5.1} % {:>9.1} {rays:>10} {per_ray:>10}",
+            cost.seconds,
+            100.0 * cost.share,
+            cost.ns_per_path
+        );
+    };
+    for stage in &report.stages {
+        row(stage.name, "", stage);
+        for system in report.systems.iter().filter(|system| system.stage == stage.name) {
+            row("", system.name, system);
+        }
+    }
+    row("schedule", "", &report.schedule);
+    out.trim_end().to_owned()
+}
+
+/// One complete event ("X") of the trace event format; times in microseconds.
+#[derive(Serialize)]
+struct TraceEvent {
+    name: &'static str,
+    cat: &'static str,
+    ph: &'static str,
+    ts: f64,
+    dur: f64,
+    pid: u32,
+    tid: usize,
+}
+
+fn trace_events(render: &Render, origin: Instant) -> Result<Vec<u8>> {
+    let mut events = Vec::new();
+    render.for_each_world(|thread, world| {
+        events.extend(world.profile().spans.iter().map(|span: &Span| TraceEvent {
+            name: span.id.name(),
+            cat: span.id.stage().name(),
+            ph: "X",
+            ts: span.start.saturating_duration_since(origin).as_nanos() as f64 * 1e-3,
+            dur: span.nanoseconds as f64 * 1e-3,
+            pid: 0,
+            tid: thread,
+        }));
+    });
+    serde_json::to_vec(&events).into_diagnostic()
+}

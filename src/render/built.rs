@@ -1,0 +1,176 @@
+//! What was really built, read back from a tile's world.
+
+use super::TileWorld;
+use crate::path::{ChainTable, ProposalTable, RayTable};
+use crate::plan::{Plan, TableKind};
+use crate::systems::{Step, TraceLoop};
+use crate::table::LANES;
+use bevy_ecs::component::ComponentId;
+use bevy_ecs::schedule::{ScheduleLabel, Schedules};
+use bevy_ecs::world::World;
+
+/// A table of a world.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BuiltTable {
+    /// Which, by its marker.
+    pub kind: TableKind,
+    /// Lane-group rows.
+    pub rows: usize,
+    /// Its columns, sorted by name; markers are not columns.
+    pub columns: Vec<BuiltColumn>,
+}
+
+/// A column of a world.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct BuiltColumn {
+    /// The component's full type name.
+    pub type_name: String,
+    /// Bytes per entry.
+    pub bytes: usize,
+    /// Whether the component has drop glue: the sign of memory on the heap.
+    pub needs_drop: bool,
+}
+
+/// A world as it is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Built {
+    /// Its tables.
+    pub tables: Vec<BuiltTable>,
+    /// Full names of the systems of a step, in the order in which they run.
+    pub step: Vec<String>,
+    /// Full names of the systems of the trace loop, in the order in which they run.
+    pub trace_loop: Vec<String>,
+    /// Components on rows that are in none of the tables: must be empty.
+    pub strays: Vec<String>,
+}
+
+impl Built {
+    /// Reads `tile` back.
+    #[must_use]
+    pub fn read(tile: &TileWorld) -> Self {
+        let world = tile.world();
+        let marker = |kind| match kind {
+            TableKind::Chains => world.component_id::<ChainTable>(),
+            TableKind::Proposals => world.component_id::<ProposalTable>(),
+            TableKind::Rays => world.component_id::<RayTable>(),
+        };
+        let kinds = [TableKind::Chains, TableKind::Proposals, TableKind::Rays];
+        let markers: Vec<Option<ComponentId>> = kinds.into_iter().map(marker).collect();
+        let mut built = Self {
+            tables: Vec::new(),
+            step: system_names(world, Step),
+            trace_loop: system_names(world, TraceLoop),
+            strays: Vec::new(),
+        };
+        for archetype in world.archetypes().iter().filter(|archetype| !archetype.is_empty()) {
+            let components = archetype.components();
+            let columns = components.iter().filter(|id| !markers.contains(&Some(**id)));
+            let mut columns: Vec<BuiltColumn> = columns.filter_map(|id| column(world, *id)).collect();
+            columns.sort();
+            let kind = kinds
+                .into_iter()
+                .zip(&markers)
+                .find(|(_, id)| id.is_some_and(|id| components.contains(&id)));
+            match kind {
+                Some((kind, _)) => {
+                    built.tables.push(BuiltTable {
+                        kind,
+                        rows: archetype.len() as usize,
+                        columns,
+                    });
+                }
+                // bevy keeps each resource on an entity of its own; those are no rows.
+                None if components.len() <= 2 && is_resource(&columns) => {}
+                None => built.strays.extend(columns.into_iter().map(|column| column.type_name)),
+            }
+        }
+        built
+            .tables
+            .sort_by_key(|table| kinds.iter().position(|kind| *kind == table.kind));
+        built
+    }
+
+    /// Whether this is what `plan` lists: the same tables with the same columns and rows, the same systems in the same
+    /// order, nothing else; otherwise the first difference in words.
+    ///
+    /// # Errors
+    /// The first difference.
+    pub fn matches(&self, plan: &Plan) -> Result<(), String> {
+        if let Some(stray) = self.strays.first() {
+            return Err(format!("{stray} is in no table"));
+        }
+        for table in &plan.tables {
+            let built = self
+                .tables
+                .iter()
+                .filter(|built| built.kind == table.kind)
+                .collect::<Vec<_>>();
+            let [built] = built.as_slice() else {
+                return Err(format!(
+                    "{} archetypes hold the table {}",
+                    built.len(),
+                    table.kind.name()
+                ));
+            };
+            let mut planned: Vec<(&str, usize)> = table
+                .columns
+                .iter()
+                .map(|column| ((column.spec.type_name)(), column.spec.bytes))
+                .collect();
+            planned.sort_unstable();
+            let real: Vec<(&str, usize)> = built.columns.iter().map(|c| (c.type_name.as_str(), c.bytes)).collect();
+            if planned != real || built.rows != table.rows as usize {
+                return Err(format!(
+                    "table {}: planned {planned:?}, built {real:?}",
+                    table.kind.name()
+                ));
+            }
+        }
+        if self.tables.len() != plan.tables.len() {
+            return Err(format!(
+                "{} tables planned, {} built",
+                plan.tables.len(),
+                self.tables.len()
+            ));
+        }
+        let planned = |in_loop: bool| {
+            let systems = plan.systems.iter().map(|system| system.id);
+            let here = systems.filter(|id| matches!(id.place(), crate::plan::Place::Loop(_)) == in_loop);
+            here.map(|id| id.name()).collect::<Vec<_>>()
+        };
+        for (built, in_loop) in [(&self.step, false), (&self.trace_loop, true)] {
+            let names: Vec<&str> = built.iter().map(|name| short(name)).collect();
+            if names != planned(in_loop) {
+                return Err(format!("systems planned {:?}, built {names:?}", planned(in_loop)));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The last part of a path such as `chainlight::systems::trace::emit_rays`.
+#[must_use]
+pub fn short(name: &str) -> &str {
+    name.rsplit("::").next().unwrap_or(name)
+}
+
+fn column(world: &World, id: ComponentId) -> Option<BuiltColumn> {
+    let info = world.components().get_info(id)?;
+    Some(BuiltColumn {
+        type_name: info.name().to_string(),
+        bytes: info.layout().size() / LANES,
+        needs_drop: info.drop().is_some(),
+    })
+}
+
+fn is_resource(columns: &[BuiltColumn]) -> bool {
+    columns.iter().any(|column| column.type_name.ends_with("IsResource"))
+}
+
+fn system_names(world: &World, label: impl ScheduleLabel) -> Vec<String> {
+    let schedules = world.resource::<Schedules>();
+    let systems = schedules.get(label).and_then(|schedule| schedule.systems().ok());
+    systems.map_or_else(Vec::new, |systems| {
+        systems.map(|(_, system)| system.name().to_string()).collect()
+    })
+}
