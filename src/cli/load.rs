@@ -2,7 +2,9 @@
 
 use super::output::note;
 use crate::plan::{Plan, Technique};
-use crate::scene::{Scene, SceneOverrides, description::MAX_DEPTH_LIMIT, description::MAX_FILM_PIXELS};
+use crate::scene::{
+    FilterDescription, Scene, SceneOverrides, description::MAX_DEPTH_LIMIT, description::MAX_FILM_PIXELS,
+};
 use crate::scene::{description::MAX_FILM_SIDE, flatten, read_scene};
 use clap::Args;
 use miette::{Result, WrapErr};
@@ -35,6 +37,8 @@ pub struct Loaded {
     pub scene: Arc<Scene>,
     /// The plan.
     pub plan: Plan,
+    /// The reconstruction filter.
+    pub filter: FilterDescription,
     /// What the reader warned of, one line each.
     pub warnings: Vec<String>,
     /// From file to tables.

@@ -1,10 +1,18 @@
 //! From a description to shapes in world space.
 
-use super::description::MaterialDescription;
-use super::error::SceneWarning;
+use super::at::At;
+use super::description::{MaterialDescription, SceneDescription, ShapeDescription, ShapeKind};
+use super::error::{SceneError, SceneWarning};
 use super::mesh::Mesh;
+use super::read::SceneSource;
+use super::shapes::{cuboid, obj, quad, sphere};
+use super::transform::compose;
+use super::validate::validate;
 use crate::color::Rgb;
 use glam::Vec3;
+
+/// The most triangles and spheres of a scene.
+pub const MAX_PRIMITIVES: u64 = 1 << 31;
 
 /// A scene's shapes in world space, and the materials that they refer to.
 #[derive(Clone, Debug)]
@@ -57,6 +65,26 @@ pub enum Emission {
 }
 
 impl Emission {
+    /// The same radiance everywhere.
+    #[must_use]
+    pub fn uniform(radiance: Rgb) -> Self {
+        if radiance.is_black() {
+            Self::None
+        } else {
+            Self::Uniform(radiance)
+        }
+    }
+
+    /// One radiance per triangle.
+    #[must_use]
+    pub fn per_triangle(radiances: Vec<Rgb>) -> Self {
+        match radiances.first() {
+            Some(first) if radiances.iter().all(|radiance| radiance == first) => Self::uniform(*first),
+            Some(_) => Self::PerTriangle(radiances),
+            None => Self::None,
+        }
+    }
+
     /// The radiance that a triangle emits; any index will do for a sphere.
     #[must_use]
     pub fn of(&self, triangle: usize) -> Rgb {
@@ -71,5 +99,117 @@ impl Emission {
     #[must_use]
     pub fn is_none(&self) -> bool {
         matches!(self, Self::None)
+    }
+}
+
+/// Validates a scene, reads the meshes that it names, and places every shape in the world.
+///
+/// # Errors
+/// At the first value out of its range, transform that cannot be applied, or mesh file that cannot be used, with its
+/// place in the scene file.
+pub fn flatten(source: &SceneSource) -> Result<Flattened, SceneError> {
+    let mut warnings = validate(source)?;
+    let scene = &source.description;
+    let mut materials = Materials::new(scene);
+    let shapes = At::root(source).key("shapes");
+    let mut instances = Vec::with_capacity(scene.shapes.len());
+    let mut primitives = 0;
+    for (index, shape) in scene.shapes.iter().enumerate() {
+        let at = shapes.index(index);
+        let instance = place(&at, index, shape, &mut materials, &mut warnings)?;
+        primitives += match &instance.geometry {
+            Geometry::Mesh(mesh) => mesh.triangles.len() as u64,
+            Geometry::Sphere { .. } => 1,
+        };
+        if primitives > MAX_PRIMITIVES {
+            let message = format!("with this shape the scene has more than {MAX_PRIMITIVES} primitives");
+            return Err(at.error(message, "use coarser meshes"));
+        }
+        instances.push(instance);
+    }
+    if instances.iter().all(|instance| instance.emission.is_none()) {
+        let message = "nothing in this scene emits light: the picture will be black";
+        warnings.push(shapes.warning(message, "give a shape an `emission: (1, 1, 1)`"));
+    }
+    Ok(Flattened {
+        instances,
+        materials: materials.list,
+        warnings,
+    })
+}
+
+fn place(
+    at: &At,
+    index: usize,
+    shape: &ShapeDescription,
+    materials: &mut Materials,
+    warnings: &mut Vec<SceneWarning>,
+) -> Result<Instance, SceneError> {
+    let map = compose(&at.key("transform"), &shape.transform)?;
+    let material = shape.material.as_deref().and_then(|name| materials.index(name));
+    let mut emission = Emission::uniform(shape.emission.unwrap_or(Rgb::BLACK));
+    // Validation has seen to it that only a mesh file may come without one.
+    let known = material.unwrap_or_default();
+    let geometry = match &shape.shape {
+        ShapeKind::Quad { corner, edge_u, edge_v } => {
+            Geometry::Mesh(quad::mesh(at, *corner, [*edge_u, *edge_v], &map, known)?)
+        }
+        ShapeKind::Box { min, max } => Geometry::Mesh(cuboid::mesh(at, *min, *max, &map, known)?),
+        ShapeKind::Sphere { center, radius } => sphere::geometry(at, *center, *radius, &map, known)?,
+        ShapeKind::Obj { file, smooth } => {
+            let at = at.key("shape").variant("Obj").key("file");
+            let loaded = obj::load(&at, file, *smooth, &map, material, materials)?;
+            warnings.extend(loaded.warnings);
+            if shape.emission.is_none() {
+                emission = loaded.emission;
+            }
+            Geometry::Mesh(loaded.mesh)
+        }
+    };
+    let name = shape.name.clone().unwrap_or_else(|| format!("shapes[{index}]"));
+    Ok(Instance {
+        name,
+        geometry,
+        emission,
+    })
+}
+
+/// The growing list of materials.
+pub(super) struct Materials {
+    list: Vec<(String, MaterialDescription)>,
+    /// How many stand in the scene file: the first ones, sorted by name.
+    described: usize,
+}
+
+impl Materials {
+    fn new(scene: &SceneDescription) -> Self {
+        let entries = scene.materials.iter();
+        let list: Vec<_> = entries
+            .map(|(name, material)| (name.clone(), material.clone()))
+            .collect();
+        Self {
+            described: list.len(),
+            list,
+        }
+    }
+
+    fn index(&self, name: &str) -> Option<u32> {
+        let found = self.list[..self.described].binary_search_by(|(known, _)| known.as_str().cmp(name));
+        found.ok().map(|index| index as u32)
+    }
+
+    /// The index of a material that a mesh brings along; the same material of the same file is listed once.
+    pub(super) fn add(&mut self, name: String, material: &MaterialDescription) -> u32 {
+        let entry = (name, material.clone());
+        let brought = &self.list[self.described..];
+        let index = brought
+            .iter()
+            .position(|known| *known == entry)
+            .unwrap_or(brought.len())
+            + self.described;
+        if index == self.list.len() {
+            self.list.push(entry);
+        }
+        index as u32
     }
 }

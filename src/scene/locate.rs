@@ -56,6 +56,67 @@ pub(super) fn locate(text: &str, format: Format, steps: &[Step]) -> Range<usize>
     search.best.map_or(0..0, |(_, span)| span)
 }
 
+/// What stands around a byte of a text.
+pub(super) struct Context {
+    /// The way there as a person would write it: `shapes[3].material`. Empty outside every bracket.
+    pub(super) path: String,
+    /// The token that holds the byte, or the next one; empty at the end of the text.
+    pub(super) token: Range<usize>,
+    /// From the innermost open bracket, with the name before it, to the token.
+    pub(super) bracket: Range<usize>,
+}
+
+/// What stands around the byte `at`. Never panics, whatever the text.
+pub(super) fn context(text: &str, at: usize) -> Context {
+    let mut stack: Vec<Frame> = vec![Frame::new(0, None)];
+    for (kind, span) in Lexer::new(text) {
+        if span.end > at {
+            return describe_stack(text, &stack, span);
+        }
+        match kind {
+            Kind::Open => {
+                let start = stack
+                    .last_mut()
+                    .and_then(|frame| frame.last.take())
+                    .map_or(span.start, |name| name.start);
+                stack.push(Frame::new(start, None));
+            }
+            // The outermost frame stands for the text itself.
+            Kind::Close if stack.len() > 1 => drop(stack.pop()),
+            _ => {
+                if let Some(frame) = stack.last_mut() {
+                    frame.step(kind, span);
+                }
+            }
+        }
+    }
+    describe_stack(text, &stack, text.len()..text.len())
+}
+
+fn describe_stack(text: &str, stack: &[Frame], token: Range<usize>) -> Context {
+    let mut path = String::new();
+    for (depth, frame) in stack.iter().enumerate().skip(1) {
+        let step = match &frame.key {
+            Some(key) => format!(
+                "{}{}",
+                if path.is_empty() { "" } else { "." },
+                decode(&text[key.clone()])
+            ),
+            // An element without a key: a number, unless it is the outermost bracket's or a bracket's very first.
+            None if text[frame.start..].starts_with('[') => format!("[{}]", frame.index),
+            None if depth + 1 == stack.len() => continue,
+            None => String::new(),
+        };
+        path.push_str(&step);
+    }
+    let start = stack.last().map_or(0, |frame| frame.start);
+    Context {
+        path,
+        bracket: start..token.end.max(start),
+        token,
+    }
+}
+
 /// A step in terms of brackets and keys alone.
 enum Wanted<'a> {
     Key(&'a str),
@@ -88,6 +149,34 @@ struct Frame {
     last: Option<Range<usize>>,
 }
 
+impl Frame {
+    fn new(start: usize, matched: Option<usize>) -> Self {
+        Self {
+            start,
+            matched,
+            key: None,
+            index: 0,
+            last: None,
+        }
+    }
+
+    /// Takes note of a token that neither opens nor closes a bracket.
+    fn step(&mut self, kind: Kind, span: Range<usize>) {
+        match kind {
+            // Two words in a row are a mistake in the text: the later one counts.
+            Kind::Word | Kind::Text => self.last = Some(span),
+            Kind::Colon => self.key = self.last.take().or(self.key.take()),
+            Kind::Comma => {
+                *self = Self {
+                    index: self.index + 1,
+                    ..Self::new(self.start, self.matched)
+                }
+            }
+            Kind::Open | Kind::Close => {}
+        }
+    }
+}
+
 struct Search<'a> {
     text: &'a str,
     steps: &'a [Wanted<'a>],
@@ -97,53 +186,34 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn run(&mut self) {
-        let mut outside = Frame {
-            start: 0,
-            matched: None,
-            key: None,
-            index: 0,
-            last: None,
-        };
         let mut stack: Vec<Frame> = Vec::new();
         for (kind, span) in Lexer::new(self.text) {
-            let frame = stack.last_mut().unwrap_or(&mut outside);
             match kind {
-                Kind::Word | Kind::Text => {
-                    // Two words in a row are a mistake in the text: the later one counts.
-                    frame.last = Some(span.clone());
-                    self.offer(frame, span);
-                }
-                Kind::Colon => {
-                    if let Some(key) = frame.last.take() {
-                        self.offer_name(frame, &key);
-                        frame.key = Some(key);
-                    }
-                }
-                Kind::Comma => {
-                    frame.key = None;
-                    frame.last = None;
-                    frame.index += 1;
-                }
                 Kind::Open => {
-                    let start = frame.last.take().map_or(span.start, |name| name.start);
+                    let name = stack.last_mut().and_then(|frame| frame.last.take());
+                    let start = name.map_or(span.start, |name| name.start);
                     let matched = if stack.is_empty() {
                         Some(0)
                     } else {
                         self.matches(stack.last())
                     };
-                    stack.push(Frame {
-                        start,
-                        matched,
-                        key: None,
-                        index: 0,
-                        last: None,
-                    });
+                    stack.push(Frame::new(start, matched));
                     // For now as far as the bracket, in case that it never closes.
                     self.record(matched, start..span.end);
                 }
                 Kind::Close => {
                     if let Some(frame) = stack.pop() {
                         self.record_closed(frame.matched, frame.start..span.end);
+                    }
+                }
+                _ => {
+                    let Some(frame) = stack.last_mut() else { continue };
+                    frame.step(kind, span.clone());
+                    if kind == Kind::Colon {
+                        self.offer_name(frame);
+                    } else if kind != Kind::Comma {
+                        let matched = self.matches(Some(frame));
+                        self.record(matched, span);
                     }
                 }
             }
@@ -162,14 +232,11 @@ impl Search<'_> {
         hit.then_some(matched + 1)
     }
 
-    fn offer(&mut self, frame: &Frame, span: Range<usize>) {
-        let matched = self.matches(Some(frame));
-        self.record(matched, span);
-    }
-
-    fn offer_name(&mut self, frame: &Frame, key: &Range<usize>) {
+    /// Records the key that `frame` has just read, if its name is what is wanted.
+    fn offer_name(&mut self, frame: &Frame) {
         if let Some(matched) = frame.matched
             && let Some(Wanted::Name(name)) = self.steps.get(matched)
+            && let Some(key) = &frame.key
             && decode(&self.text[key.clone()]) == *name
         {
             self.record(Some(matched + 1), key.clone());

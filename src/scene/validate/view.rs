@@ -1,0 +1,80 @@
+//! Checks of the `camera` and `film` blocks.
+
+use crate::scene::at::At;
+use crate::scene::description::{
+    CameraDescription, FilmDescription, FilterDescription, MAX_FILM_PIXELS, MAX_FILM_SIDE,
+};
+use crate::scene::error::SceneError;
+
+/// How near to parallel `up` may come to the view, as the sine of the angle between them: nearer, the picture's
+/// rotation would be rounding noise of `f32`.
+const MIN_UP_SINE: f64 = 1.0e-4;
+/// The smallest distance from origin to target, relative to their coordinates: nearer, the direction of view would be
+/// rounding noise of `f32`.
+const MIN_VIEW_DISTANCE: f64 = 1.0e-6;
+/// How near to 0 and to 180 degrees an angle of view may come.
+const FOV_MARGIN: f32 = 1.0e-4;
+
+pub(super) fn camera(at: &At, camera: &CameraDescription) -> Result<(), SceneError> {
+    let CameraDescription::Perspective {
+        origin,
+        target,
+        up,
+        fov,
+        fov_axis: _,
+    } = camera;
+    let at = at.variant("Perspective");
+    let from = at.key("origin").lengths(*origin)?;
+    let to = at.key("target").lengths(*target)?;
+    let view = to - from;
+    let scale = from.length().max(to.length());
+    if view.length() <= (MIN_VIEW_DISTANCE * scale).max(1.0e-9) {
+        let message = "the camera's target is its origin, so that it looks nowhere";
+        return Err(at.key("target").error(message, "put the target in front of the camera"));
+    }
+    let upward = at.key("up").direction(*up)?;
+    if upward.cross(view).length() <= MIN_UP_SINE * upward.length() * view.length() {
+        let message = "`up` is parallel to the view, so that the picture could be turned either way";
+        return Err(at
+            .key("up")
+            .error(message, "for a view straight up or down, try `up: (0, 0, 1)`"));
+    }
+    let at = at.key("fov");
+    at.finite(*fov)?;
+    if !(FOV_MARGIN..=180.0 - FOV_MARGIN).contains(fov) {
+        let message = format!("expected an angle of view between 0 and 180 degrees, found {fov}");
+        return Err(at.error(message, "40 is usual"));
+    }
+    Ok(())
+}
+
+pub(super) fn film(at: &At, film: &FilmDescription) -> Result<(), SceneError> {
+    for (name, side) in [("width", film.width), ("height", film.height)] {
+        if !(1..=MAX_FILM_SIDE).contains(&side) {
+            let message = format!("expected from 1 to {MAX_FILM_SIDE} pixels, found {side}");
+            return Err(at.key(name).error(message, ""));
+        }
+    }
+    let pixels = u64::from(film.width) * u64::from(film.height);
+    if pixels > MAX_FILM_PIXELS {
+        let message = format!("a film has at most {MAX_FILM_PIXELS} pixels, this one {pixels}");
+        return Err(at.error(message, "render a smaller picture, or parts of it"));
+    }
+    let at = at.key("filter");
+    let (at, radius) = match film.filter {
+        FilterDescription::Box { radius } => (at.variant("Box"), radius),
+        FilterDescription::Tent { radius } => (at.variant("Tent"), radius),
+        FilterDescription::Gaussian { radius, sigma } => {
+            let at = at.variant("Gaussian");
+            at.key("sigma")
+                .within(sigma, 0.05, 16.0, "a standard deviation in pixels; 0.5 is usual")?;
+            (at, radius)
+        }
+    };
+    at.key("radius").within(
+        radius,
+        0.5,
+        16.0,
+        "in pixels; less than half a pixel would lose light between pixels",
+    )
+}
