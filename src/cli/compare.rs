@@ -5,6 +5,7 @@ use crate::stats::metrics::{Metrics, compare};
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use std::fmt::Write as _;
+use std::io::Write as _;
 use std::path::PathBuf;
 
 /// Compare a picture with a reference of the same size.
@@ -22,10 +23,9 @@ pub struct CompareArgs {
 /// Reads both pictures and prints what lies between them.
 ///
 /// # Errors
-/// Where a file cannot be read, or the sizes differ.
+/// Where a file cannot be read, the sizes differ, or nobody reads what is printed.
 pub fn run(args: &CompareArgs) -> Result<()> {
-    println!("{}", report(args)?);
-    Ok(())
+    writeln!(std::io::stdout().lock(), "{}", report(args)?).into_diagnostic()
 }
 
 /// What the command prints.

@@ -13,14 +13,15 @@
 //! | range | ± 2⁶³ units | 2⁸⁸ units² |
 //!
 //! - A value from 2⁻⁴⁰ units up is added exactly, every bit of it; below, it is rounded to the resolution, and below
-//!   2⁻⁶⁵ units it vanishes ([`Tally::vanished`]). Squares are exact from 2⁻²⁸ units, keep 24 bits at 2⁻⁴⁰ units and
+//!   2⁻⁶⁵ units it vanishes ([`Tally::vanished`](super::Tally::vanished)). Squares are exact from 2⁻²⁸ units, keep 24 bits at 2⁻⁴⁰ units and
 //!   vanish below 2⁻⁵².
-//! - A value above 2⁴⁰ units is brought down to that ([`Tally::saturated`]): a picture with one is wrong, and says so.
+//! - A value above 2⁴⁰ units is brought down to that ([`Tally::saturated`](super::Tally::saturated)): a picture with one is wrong, and says so.
 //! - By Cauchy and Schwarz |S| ≤ √(n S₂), so the sum cannot overflow in a pixel with fewer than 2³⁸ splats unless the sum
 //!   of squares left its range first. That pins it at its largest value, for good and in any order, and the pixel's error
 //!   is then reported as infinite.
 
 use super::fixed::{SquareSum, Unit};
+use super::tally::{FilmError, Tally};
 use crate::color::Rgb;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -35,56 +36,6 @@ pub struct Splat {
     pub pixel: u32,
     /// Radiance times the weight it counts with.
     pub value: Rgb,
-}
-
-/// What a film could not take as it was.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
-    /// Splats that were left out because a channel was infinite or not a number. They count as no sample either.
-    pub non_finite: u64,
-    /// Splats that were left out because the film has no such pixel.
-    pub outside: u64,
-    /// Splats with a channel above the film's range, which was brought down to it.
-    pub saturated: u64,
-    /// Splats with a channel that is not zero but below the film's resolution, and so added nothing.
-    pub vanished: u64,
-}
-
-impl Tally {
-    /// Splats that were left out altogether.
-    #[must_use]
-    pub const fn rejected(&self) -> u64 {
-        self.non_finite + self.outside
-    }
-
-    const fn is_clean(&self) -> bool {
-        self.non_finite | self.outside | self.saturated | self.vanished == 0
-    }
-}
-
-/// Why a film cannot be made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
-pub enum FilmError {
-    /// A side is zero.
-    #[error("a film of {width} x {height} pixels has no pixel")]
-    #[diagnostic(help("give it a width and a height of at least 1"))]
-    Empty {
-        /// Pixels in a row.
-        width: u32,
-        /// Rows.
-        height: u32,
-    },
-    /// More pixels than an index counts, or than memory holds.
-    #[error("a film of {width} x {height} pixels needs {bytes} bytes, more than there are")]
-    #[diagnostic(help("render a smaller picture: the film keeps 128 bytes a pixel"))]
-    TooLarge {
-        /// Pixels in a row.
-        width: u32,
-        /// Rows.
-        height: u32,
-        /// What the film would take.
-        bytes: u64,
-    },
 }
 
 /// One pixel's sums: two cache lines.

@@ -1,11 +1,10 @@
 //! Reads OpenEXR pictures: our own, and those of others (half, float or integer samples, channels in any order, further
 //! layers, luminance only, a data window that is not the display window).
 
+use super::exr_channels::{Color, FlatLayer, Window, channel_named, interleave, missing_colors, string};
 use super::picture::ImageView;
 use crate::color::Rgb;
-use exr::prelude::{
-    AnyChannel, AnyChannels, AttributeValue, FlatSamples, Layer, MetaData, ReadChannels, ReadLayers, Text, Vec2, read,
-};
+use exr::prelude::{AttributeValue, MetaData, ReadChannels, ReadLayers, read};
 use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -112,7 +111,7 @@ pub fn decode_exr(bytes: &[u8]) -> Result<ExrPicture, String> {
     let plane = |group: &str, channel: &str| {
         let dotted = channel_named(layer, &format!("{group}.{channel}")).map(|c| (layer, c));
         dotted.or_else(|| {
-            let named = |l: &&Layer<_>| {
+            let named = |l: &&FlatLayer| {
                 l.attributes
                     .layer_name
                     .as_ref()
@@ -161,9 +160,6 @@ pub fn decode_exr(bytes: &[u8]) -> Result<ExrPicture, String> {
     })
 }
 
-type FlatLayer = Layer<AnyChannels<FlatSamples>>;
-type Channel = AnyChannel<FlatSamples>;
-
 /// Refuses a picture too large to hold before anything is allocated for it.
 fn check_size(bytes: &[u8]) -> Result<(), String> {
     let meta = MetaData::read_from_buffered(bytes, false).map_err(|e| e.to_string())?;
@@ -179,92 +175,4 @@ fn check_size(bytes: &[u8]) -> Result<(), String> {
         }
     }
     Ok(())
-}
-
-/// The channels a layer's colours come from.
-enum Color<'a> {
-    Rgb([&'a Channel; 3]),
-    Luminance(&'a Channel),
-}
-
-impl<'a> Color<'a> {
-    fn of(layer: &'a FlatLayer) -> Option<Self> {
-        let named = |name| channel_named(layer, name);
-        match (named("R"), named("G"), named("B")) {
-            (Some(r), Some(g), Some(b)) => Some(Self::Rgb([r, g, b])),
-            _ => named("Y").map(Self::Luminance),
-        }
-    }
-}
-
-fn channel_named<'a>(layer: &'a FlatLayer, name: &str) -> Option<&'a Channel> {
-    layer
-        .channel_data
-        .list
-        .iter()
-        .find(|c| c.name.as_slice() == name.as_bytes())
-}
-
-fn missing_colors(layers: &[FlatLayer]) -> String {
-    let names: Vec<String> = layers
-        .iter()
-        .flat_map(|l| l.channel_data.list.iter().map(|c| string(&c.name)))
-        .collect();
-    format!("it has neither channels R, G and B nor Y, but {}", names.join(", "))
-}
-
-fn string(text: &Text) -> String {
-    String::from_utf8_lossy(text.as_slice()).into_owned()
-}
-
-fn interleave([r, g, b]: [Vec<f32>; 3]) -> Vec<Rgb> {
-    r.into_iter()
-        .zip(g)
-        .zip(b)
-        .map(|((r, g), b)| Rgb::new(r, g, b))
-        .collect()
-}
-
-/// The display window: what a viewer frames.
-struct Window {
-    x: i32,
-    y: i32,
-    width: usize,
-    height: usize,
-}
-
-impl Window {
-    /// A channel's samples over the window: zero where the layer has none.
-    fn plane(&self, layer: &FlatLayer, channel: &Channel) -> Result<Vec<f32>, String> {
-        if channel.sampling != Vec2(1, 1) {
-            return Err(format!("its channel {} is subsampled", string(&channel.name)));
-        }
-        let mut out = vec![0.0; self.width * self.height];
-        let position = layer.attributes.layer_position;
-        let (dx, dy) = (
-            i64::from(position.0) - i64::from(self.x),
-            i64::from(position.1) - i64::from(self.y),
-        );
-        let inside = |origin: i64, i: usize, size: usize| {
-            usize::try_from(origin + i as i64).ok().filter(|&target| target < size)
-        };
-        for row in 0..layer.size.1 {
-            let Some(y) = inside(dy, row, self.height) else {
-                continue;
-            };
-            for column in 0..layer.size.0 {
-                let Some(x) = inside(dx, column, self.width) else {
-                    continue;
-                };
-                let i = row * layer.size.0 + column;
-                let sample = match &channel.sample_data {
-                    FlatSamples::F16(v) => v.get(i).map(|h| h.to_f32()),
-                    FlatSamples::F32(v) => v.get(i).copied(),
-                    FlatSamples::U32(v) => v.get(i).map(|&u| u as f32),
-                };
-                out[y * self.width + x] = sample.ok_or("it holds fewer samples than its size says")?;
-            }
-        }
-        Ok(out)
-    }
 }

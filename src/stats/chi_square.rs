@@ -34,7 +34,7 @@ pub fn chi_square(observed: &[u64], probabilities: &[f64]) -> ChiSquare {
     let mut cells: Vec<(f64, f64)> = (0..cells).map(cell).collect();
     cells.sort_by(|a, b| a.1.total_cmp(&b.1));
 
-    let impossible = cells.iter().any(|&(count, expected)| count > 0.0 && !(expected > 0.0));
+    let impossible = cells.iter().any(|&(count, expected)| count > 0.0 && expected <= 0.0);
     let mut pools: Vec<(f64, f64)> = Vec::new();
     let mut pool = (0.0, 0.0);
     for (count, expected) in cells {

@@ -71,8 +71,9 @@ impl TruncatedGaussian {
             let mut cell = Cell::between(low, high, [slope(low), slope(high)]);
             cell.polished = [0.125, 0.25, 0.5, 0.75, 0.875].into_iter().any(|t| {
                 let exact = table.invert((i as f64 + t) / CELLS as f64, low, high);
-                // Written so that an endless slope (a density of zero at the radius) counts as straying.
-                !((cell.at(t) - exact).abs() <= TOLERANCE * radius)
+                let stray = (cell.at(t) - exact).abs();
+                // Where the density underflows at the radius, the slope is endless and the piece not a number.
+                stray.is_nan() || stray > TOLERANCE * radius
             });
             if cell.polished {
                 cell.coefficients = [low, high - low, 0.0, 0.0];
