@@ -93,3 +93,31 @@ impl Window {
         Ok(out)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use exr::prelude::{Encoding, LayerAttributes};
+
+    #[test]
+    fn channels_that_skip_samples_or_miss_some_are_refused() {
+        let window = Window {
+            x: 0,
+            y: 0,
+            width: 2,
+            height: 2,
+        };
+        let channel = AnyChannel::new("Y", FlatSamples::F32(vec![1.0]));
+        let list = AnyChannels::sort([channel].into_iter().collect());
+        let mut layer = Layer::new((2, 2), LayerAttributes::default(), Encoding::UNCOMPRESSED, list);
+        let error = window
+            .plane(&layer, &layer.channel_data.list[0])
+            .expect_err("one sample of four");
+        assert!(error.contains("fewer samples"), "{error}");
+        layer.channel_data.list[0].sampling = Vec2(2, 2);
+        let error = window
+            .plane(&layer, &layer.channel_data.list[0])
+            .expect_err("subsampled");
+        assert!(error.contains("channel Y is subsampled"), "{error}");
+    }
+}

@@ -176,3 +176,143 @@ fn check_size(bytes: &[u8]) -> Result<(), String> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use exr::prelude::{
+        AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer, LayerAttributes,
+        SmallVec, Text, Vec2, WritableImage, f16,
+    };
+
+    fn layer(name: Option<&str>, size: (usize, usize), channels: Vec<(&str, FlatSamples)>) -> FlatLayer {
+        let channels: SmallVec<[_; 4]> = channels.into_iter().map(|(name, s)| AnyChannel::new(name, s)).collect();
+        let attributes = LayerAttributes {
+            layer_name: name.map(Text::from),
+            ..Default::default()
+        };
+        Layer::new(size, attributes, Encoding::UNCOMPRESSED, AnyChannels::sort(channels))
+    }
+
+    fn file(layers: Vec<FlatLayer>, window: IntegerBounds) -> Vec<u8> {
+        let mut bytes = Cursor::new(Vec::new());
+        let image = Image::from_layers(ImageAttributes::new(window), layers);
+        image.write().to_buffered(&mut bytes).expect("encoded");
+        bytes.into_inner()
+    }
+
+    fn floats(values: &[f32]) -> FlatSamples {
+        FlatSamples::F32(values.to_vec())
+    }
+
+    #[test]
+    fn mixed_sample_types_and_further_channels_are_read() {
+        let half = |v: [f32; 2]| FlatSamples::F16(v.map(f16::from_f32).to_vec());
+        let channels = vec![
+            ("Z", floats(&[9.0, 9.0])),
+            ("R", half([0.5, -2.0])),
+            ("B", FlatSamples::U32(vec![3, 7])),
+            ("A", half([1.0, 1.0])),
+            ("G", floats(&[0.1, 0.2])),
+        ];
+        let read = decode_exr(&file(
+            vec![layer(None, (2, 1), channels)],
+            IntegerBounds::from_dimensions((2, 1)),
+        ));
+        let read = read.expect("read");
+        assert_eq!(read.rgb, [Rgb::new(0.5, 0.1, 3.0), Rgb::new(-2.0, 0.2, 7.0)]);
+        assert_eq!((read.error, read.weight), (None, None));
+    }
+
+    #[test]
+    fn luminance_alone_is_read_as_grey() {
+        let y = layer(None, (1, 2), vec![("Y", floats(&[0.25, 4.0]))]);
+        let read = decode_exr(&file(vec![y], IntegerBounds::from_dimensions((1, 2)))).expect("read");
+        assert_eq!(read.rgb, [Rgb::splat(0.25), Rgb::splat(4.0)]);
+    }
+
+    #[test]
+    fn colors_are_found_behind_other_layers_and_errors_in_a_layer_of_their_own() {
+        let rgb = |v: f32| vec![("R", floats(&[v])), ("G", floats(&[v])), ("B", floats(&[v]))];
+        let layers = vec![
+            layer(Some("depth"), (1, 1), vec![("Z", floats(&[8.0]))]),
+            layer(Some("beauty"), (1, 1), rgb(0.5)),
+            layer(Some("error"), (1, 1), rgb(0.125)),
+        ];
+        let read = decode_exr(&file(layers, IntegerBounds::from_dimensions((1, 1)))).expect("read");
+        assert_eq!(
+            (read.rgb, read.error),
+            (vec![Rgb::splat(0.5)], Some(vec![Rgb::splat(0.125)]))
+        );
+    }
+
+    #[test]
+    fn data_is_laid_over_the_display_window() {
+        // The window spans x 10..13, y 20..22; the data x 12..14, y 19..21: one pixel of it is inside.
+        let mut y = layer(None, (2, 2), vec![("Y", floats(&[1.0, 2.0, 3.0, 4.0]))]);
+        y.attributes.layer_position = Vec2(12, 19);
+        let read = decode_exr(&file(vec![y], IntegerBounds::new((10, 20), (3, 2)))).expect("read");
+        let expected = [0.0, 0.0, 3.0, 0.0, 0.0, 0.0].map(Rgb::splat);
+        assert_eq!((read.width, read.height, &read.rgb[..]), (3, 2, &expected[..]));
+    }
+
+    #[test]
+    fn a_file_without_colors_says_what_it_has() {
+        let z = layer(None, (1, 1), vec![("Z", floats(&[1.0])), ("R", floats(&[1.0]))]);
+        let error = decode_exr(&file(vec![z], IntegerBounds::from_dimensions((1, 1)))).expect_err("no colors");
+        assert!(error.contains("neither") && error.ends_with("R, Z"), "{error}");
+    }
+
+    #[test]
+    fn a_header_that_claims_too_much_is_refused_before_anything_is_allocated() {
+        let y = layer(None, (1, 1), vec![("Y", floats(&[1.0]))]);
+        let window = IntegerBounds::from_dimensions((1_000_000, 1_000_000));
+        let error = decode_exr(&file(vec![y], window)).expect_err("too large");
+        assert!(error.contains("1000000 x 1000000"), "{error}");
+    }
+
+    #[test]
+    fn truncated_files_are_refused() {
+        let y = layer(None, (4, 4), vec![("Y", floats(&[1.5; 16]))]);
+        let whole = file(vec![y], IntegerBounds::from_dimensions((4, 4)));
+        for length in 0..whole.len() {
+            assert!(
+                decode_exr(&whole[..length]).is_err(),
+                "{length} of {} bytes",
+                whole.len()
+            );
+        }
+    }
+
+    #[test]
+    fn damaged_files_are_read_or_refused_but_never_panic() {
+        let y = layer(None, (4, 4), vec![("Y", floats(&[1.5; 16]))]);
+        let whole = file(vec![y], IntegerBounds::from_dimensions((4, 4)));
+        for i in 0..whole.len() {
+            for flip in [0x01, 0x80, 0xff] {
+                let mut damaged = whole.clone();
+                damaged[i] ^= flip;
+                if let Ok(read) = decode_exr(&damaged) {
+                    assert_eq!(read.rgb.len(), read.width as usize * read.height as usize);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn errors_name_the_file() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let path = directory.path().join("none.exr");
+        let error = read_exr(&path).expect_err("not there");
+        assert!(
+            matches!(error, ReadError::Io { .. }) && error.to_string().contains("none.exr"),
+            "{error}"
+        );
+        std::fs::write(&path, b"not a picture").expect("written");
+        let error = read_exr(&path).expect_err("not a picture");
+        assert!(
+            matches!(error, ReadError::Format { .. }) && error.to_string().contains("none.exr"),
+            "{error}"
+        );
+    }
+}
