@@ -5,6 +5,7 @@ use crate::stats::metrics::{Metrics, compare};
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use std::fmt::Write as _;
+use std::io::Write as _;
 use std::path::PathBuf;
 
 /// Compare a picture with a reference of the same size.
@@ -22,10 +23,9 @@ pub struct CompareArgs {
 /// Reads both pictures and prints what lies between them.
 ///
 /// # Errors
-/// Where a file cannot be read, or the sizes differ.
+/// Where a file cannot be read, the sizes differ, or nobody reads what is printed.
 pub fn run(args: &CompareArgs) -> Result<()> {
-    println!("{}", report(args)?);
-    Ok(())
+    writeln!(std::io::stdout().lock(), "{}", report(args)?).into_diagnostic()
 }
 
 /// What the command prints.
@@ -68,4 +68,70 @@ fn table(image: &ExrPicture, m: &Metrics) -> String {
         m.compared, m.non_finite
     );
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Rgb;
+    use crate::film::{Picture, PictureMetadata, write_exr};
+    use std::path::Path;
+
+    fn write(path: &Path, width: u32, value: f32) -> PathBuf {
+        let black = vec![Rgb::BLACK; width as usize];
+        let rgb = vec![Rgb::splat(value); width as usize];
+        let picture = Picture {
+            width,
+            height: 1,
+            rgb,
+            error: black,
+            weight: vec![1.0; width as usize],
+        };
+        write_exr(path, &picture, &PictureMetadata::default()).expect("written");
+        path.to_owned()
+    }
+
+    fn args(json: bool, widths: [u32; 2]) -> (tempfile::TempDir, CompareArgs) {
+        let directory = tempfile::tempdir().expect("a directory");
+        let image = write(&directory.path().join("a.exr"), widths[0], 1.5);
+        let reference = write(&directory.path().join("r.exr"), widths[1], 1.0);
+        (directory, CompareArgs { image, reference, json })
+    }
+
+    #[test]
+    fn the_table_names_its_formulas() {
+        let (_directory, args) = args(false, [2, 2]);
+        insta::assert_snapshot!(report(&args).expect("compared"), @"
+        2 x 1 pixels; a: picture, r: reference
+        MSE                2.500000e-1  mean (a - r)^2
+        relMSE             2.475248e-1  mean (a - r)^2 / (r^2 + 0.01)
+        relMSE, trimmed    2.475248e-1  the same without the worst 0.1 % of the pixels
+        MAPE               4.950495e-1  mean |a - r| / (|r| + 0.01)
+        mean ratio          1.500000e0  mean a / mean r
+          red               1.500000e0
+          green             1.500000e0
+          blue              1.500000e0
+        max |a - r|        5.000000e-1
+        compared                     2  pixels; 0 not finite, left out
+        ");
+    }
+
+    #[test]
+    fn json_holds_the_same_numbers() {
+        let (_directory, args) = args(true, [2, 2]);
+        let json: serde_json::Value = serde_json::from_str(&report(&args).expect("compared")).expect("JSON");
+        assert_eq!(
+            (json["mse"].as_f64(), json["mean_ratio"].as_f64()),
+            (Some(0.25), Some(1.5))
+        );
+        assert_eq!(json["compared"].as_u64(), Some(2));
+    }
+
+    #[test]
+    fn different_sizes_and_missing_files_are_errors() {
+        let (_directory, mut args) = args(false, [2, 3]);
+        assert!(run(&args).expect_err("sizes differ").to_string().contains("2 x 1"));
+        args.reference = "nowhere.exr".into();
+        assert!(run(&args).expect_err("missing").to_string().contains("nowhere.exr"));
+    }
 }

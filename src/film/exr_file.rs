@@ -129,3 +129,128 @@ fn sort_attributes(file: &mut [u8]) -> Option<()> {
     file[FIRST..start].copy_from_slice(&sorted);
     Some(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::{decode_exr, read_exr};
+
+    /// A picture whose lines compress badly enough to matter, with odd values among them.
+    fn picture(width: u32, height: u32) -> Picture {
+        let pixels = width * height;
+        let value = |i: u32, k: u32| (i.wrapping_mul(2_654_435_761).wrapping_add(k * 77) >> 8) as f32 / 65536.0;
+        let mut rgb: Vec<Rgb> = (0..pixels)
+            .map(|i| Rgb::new(value(i, 1), value(i, 2), -value(i, 3)))
+            .collect();
+        rgb[0].g = f32::INFINITY;
+        Picture {
+            width,
+            height,
+            rgb,
+            error: (0..pixels).map(|i| Rgb::splat(value(i, 4))).collect(),
+            weight: (0..pixels).map(|i| i as f32).collect(),
+        }
+    }
+
+    fn metadata() -> PictureMetadata {
+        PictureMetadata {
+            scene: "scènes/Ω.ron".into(),
+            technique: "pt".into(),
+            settings: "(max_depth: 12,\n filter: Box(radius: 0.5))".into(),
+            seed: u64::MAX,
+            steps: 1024,
+            software: "chainlight 0.1.0".into(),
+        }
+    }
+
+    #[test]
+    fn everything_comes_back_from_the_file() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let path = directory.path().join("picture.exr");
+        let (picture, metadata) = (picture(37, 41), metadata());
+        write_exr(&path, &picture, &metadata).expect("written");
+        let back = read_exr(&path).expect("read");
+        assert_eq!((back.width, back.height), (37, 41));
+        assert_eq!(back.rgb, picture.rgb);
+        assert_eq!(back.error.as_ref(), Some(&picture.error));
+        assert_eq!(back.weight.as_ref(), Some(&picture.weight));
+        for (name, value) in metadata.attributes() {
+            assert_eq!(back.metadata[name], value);
+        }
+        assert_eq!(back.metadata["software"], metadata.software);
+    }
+
+    #[test]
+    fn bytes_are_the_same_however_often_and_on_however_many_threads_they_are_written() {
+        let (picture, metadata) = (picture(64, 200), metadata());
+        let first = encode_exr(&picture, &metadata).expect("encoded");
+        for threads in [1, 2, 5, 1, 2, 5] {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .expect("a pool");
+            assert!(
+                pool.install(|| encode_exr(&picture, &metadata)).expect("encoded") == first,
+                "{threads} threads"
+            );
+        }
+    }
+
+    #[test]
+    fn channels_and_attributes_lie_in_order() {
+        let bytes = encode_exr(&picture(3, 2), &metadata()).expect("encoded");
+        let place = |name: &str| bytes.windows(name.len()).position(|w| w == name.as_bytes());
+        let attributes = [
+            "displayWindow\0box2i\0",
+            "lineOrder\0lineOrder\0",
+            "scene\0string\0",
+            "seed\0string\0",
+            "settings\0string\0",
+            "software\0string\0",
+            "steps\0string\0",
+            "technique\0string\0",
+        ];
+        let channels = [
+            "\0G\0",
+            "\0R\0",
+            "\0error.B\0",
+            "\0error.G\0",
+            "\0error.R\0",
+            "\0weight.Y\0",
+        ];
+        for places in [attributes.map(place).to_vec(), channels.map(place).to_vec()] {
+            assert!(places.iter().all(Option::is_some) && places.is_sorted(), "{places:?}");
+        }
+    }
+
+    #[test]
+    fn a_picture_that_is_not_is_refused() {
+        let mut short = picture(4, 4);
+        short.weight.pop();
+        assert!(encode_exr(&short, &metadata()).is_err());
+        let empty = Picture {
+            width: 0,
+            height: 0,
+            rgb: vec![],
+            error: vec![],
+            weight: vec![],
+        };
+        let error = write_exr(Path::new("x.exr"), &empty, &metadata()).expect_err("empty");
+        assert!(error.to_string().contains("x.exr"), "{error}");
+        assert!(decode_exr(b"").is_err());
+    }
+
+    #[test]
+    fn malformed_headers_are_left_alone() {
+        for bytes in [
+            &b""[..],
+            b"12345678",
+            b"12345678abc",
+            b"12345678a\0b\0\xff\xff\xff\xffzz",
+        ] {
+            let mut copy = bytes.to_vec();
+            assert_eq!(sort_attributes(&mut copy), None);
+            assert_eq!(copy, bytes);
+        }
+    }
+}

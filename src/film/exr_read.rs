@@ -1,11 +1,10 @@
 //! Reads OpenEXR pictures: our own, and those of others (half, float or integer samples, channels in any order, further
 //! layers, luminance only, a data window that is not the display window).
 
+use super::exr_channels::{Color, FlatLayer, Window, channel_named, interleave, missing_colors, string};
 use super::picture::ImageView;
 use crate::color::Rgb;
-use exr::prelude::{
-    AnyChannel, AnyChannels, AttributeValue, FlatSamples, Layer, MetaData, ReadChannels, ReadLayers, Text, Vec2, read,
-};
+use exr::prelude::{AttributeValue, MetaData, ReadChannels, ReadLayers, read};
 use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -112,7 +111,7 @@ pub fn decode_exr(bytes: &[u8]) -> Result<ExrPicture, String> {
     let plane = |group: &str, channel: &str| {
         let dotted = channel_named(layer, &format!("{group}.{channel}")).map(|c| (layer, c));
         dotted.or_else(|| {
-            let named = |l: &&Layer<_>| {
+            let named = |l: &&FlatLayer| {
                 l.attributes
                     .layer_name
                     .as_ref()
@@ -161,9 +160,6 @@ pub fn decode_exr(bytes: &[u8]) -> Result<ExrPicture, String> {
     })
 }
 
-type FlatLayer = Layer<AnyChannels<FlatSamples>>;
-type Channel = AnyChannel<FlatSamples>;
-
 /// Refuses a picture too large to hold before anything is allocated for it.
 fn check_size(bytes: &[u8]) -> Result<(), String> {
     let meta = MetaData::read_from_buffered(bytes, false).map_err(|e| e.to_string())?;
@@ -181,90 +177,142 @@ fn check_size(bytes: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
-/// The channels a layer's colours come from.
-enum Color<'a> {
-    Rgb([&'a Channel; 3]),
-    Luminance(&'a Channel),
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use exr::prelude::{
+        AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer, LayerAttributes,
+        SmallVec, Text, Vec2, WritableImage, f16,
+    };
 
-impl<'a> Color<'a> {
-    fn of(layer: &'a FlatLayer) -> Option<Self> {
-        let named = |name| channel_named(layer, name);
-        match (named("R"), named("G"), named("B")) {
-            (Some(r), Some(g), Some(b)) => Some(Self::Rgb([r, g, b])),
-            _ => named("Y").map(Self::Luminance),
+    fn layer(name: Option<&str>, size: (usize, usize), channels: Vec<(&str, FlatSamples)>) -> FlatLayer {
+        let channels: SmallVec<[_; 4]> = channels.into_iter().map(|(name, s)| AnyChannel::new(name, s)).collect();
+        let attributes = LayerAttributes {
+            layer_name: name.map(Text::from),
+            ..Default::default()
+        };
+        Layer::new(size, attributes, Encoding::UNCOMPRESSED, AnyChannels::sort(channels))
+    }
+
+    fn file(layers: Vec<FlatLayer>, window: IntegerBounds) -> Vec<u8> {
+        let mut bytes = Cursor::new(Vec::new());
+        let image = Image::from_layers(ImageAttributes::new(window), layers);
+        image.write().to_buffered(&mut bytes).expect("encoded");
+        bytes.into_inner()
+    }
+
+    fn floats(values: &[f32]) -> FlatSamples {
+        FlatSamples::F32(values.to_vec())
+    }
+
+    #[test]
+    fn mixed_sample_types_and_further_channels_are_read() {
+        let half = |v: [f32; 2]| FlatSamples::F16(v.map(f16::from_f32).to_vec());
+        let channels = vec![
+            ("Z", floats(&[9.0, 9.0])),
+            ("R", half([0.5, -2.0])),
+            ("B", FlatSamples::U32(vec![3, 7])),
+            ("A", half([1.0, 1.0])),
+            ("G", floats(&[0.1, 0.2])),
+        ];
+        let read = decode_exr(&file(
+            vec![layer(None, (2, 1), channels)],
+            IntegerBounds::from_dimensions((2, 1)),
+        ));
+        let read = read.expect("read");
+        assert_eq!(read.rgb, [Rgb::new(0.5, 0.1, 3.0), Rgb::new(-2.0, 0.2, 7.0)]);
+        assert_eq!((read.error, read.weight), (None, None));
+    }
+
+    #[test]
+    fn luminance_alone_is_read_as_grey() {
+        let y = layer(None, (1, 2), vec![("Y", floats(&[0.25, 4.0]))]);
+        let read = decode_exr(&file(vec![y], IntegerBounds::from_dimensions((1, 2)))).expect("read");
+        assert_eq!(read.rgb, [Rgb::splat(0.25), Rgb::splat(4.0)]);
+    }
+
+    #[test]
+    fn colors_are_found_behind_other_layers_and_errors_in_a_layer_of_their_own() {
+        let rgb = |v: f32| vec![("R", floats(&[v])), ("G", floats(&[v])), ("B", floats(&[v]))];
+        let layers = vec![
+            layer(Some("depth"), (1, 1), vec![("Z", floats(&[8.0]))]),
+            layer(Some("beauty"), (1, 1), rgb(0.5)),
+            layer(Some("error"), (1, 1), rgb(0.125)),
+        ];
+        let read = decode_exr(&file(layers, IntegerBounds::from_dimensions((1, 1)))).expect("read");
+        assert_eq!(
+            (read.rgb, read.error),
+            (vec![Rgb::splat(0.5)], Some(vec![Rgb::splat(0.125)]))
+        );
+    }
+
+    #[test]
+    fn data_is_laid_over_the_display_window() {
+        // The window spans x 10..13, y 20..22; the data x 12..14, y 19..21: one pixel of it is inside.
+        let mut y = layer(None, (2, 2), vec![("Y", floats(&[1.0, 2.0, 3.0, 4.0]))]);
+        y.attributes.layer_position = Vec2(12, 19);
+        let read = decode_exr(&file(vec![y], IntegerBounds::new((10, 20), (3, 2)))).expect("read");
+        let expected = [0.0, 0.0, 3.0, 0.0, 0.0, 0.0].map(Rgb::splat);
+        assert_eq!((read.width, read.height, &read.rgb[..]), (3, 2, &expected[..]));
+    }
+
+    #[test]
+    fn a_file_without_colors_says_what_it_has() {
+        let z = layer(None, (1, 1), vec![("Z", floats(&[1.0])), ("R", floats(&[1.0]))]);
+        let error = decode_exr(&file(vec![z], IntegerBounds::from_dimensions((1, 1)))).expect_err("no colors");
+        assert!(error.contains("neither") && error.ends_with("R, Z"), "{error}");
+    }
+
+    #[test]
+    fn a_header_that_claims_too_much_is_refused_before_anything_is_allocated() {
+        let y = layer(None, (1, 1), vec![("Y", floats(&[1.0]))]);
+        let window = IntegerBounds::from_dimensions((1_000_000, 1_000_000));
+        let error = decode_exr(&file(vec![y], window)).expect_err("too large");
+        assert!(error.contains("1000000 x 1000000"), "{error}");
+    }
+
+    #[test]
+    fn truncated_files_are_refused() {
+        let y = layer(None, (4, 4), vec![("Y", floats(&[1.5; 16]))]);
+        let whole = file(vec![y], IntegerBounds::from_dimensions((4, 4)));
+        for length in 0..whole.len() {
+            assert!(
+                decode_exr(&whole[..length]).is_err(),
+                "{length} of {} bytes",
+                whole.len()
+            );
         }
     }
-}
 
-fn channel_named<'a>(layer: &'a FlatLayer, name: &str) -> Option<&'a Channel> {
-    layer
-        .channel_data
-        .list
-        .iter()
-        .find(|c| c.name.as_slice() == name.as_bytes())
-}
-
-fn missing_colors(layers: &[FlatLayer]) -> String {
-    let names: Vec<String> = layers
-        .iter()
-        .flat_map(|l| l.channel_data.list.iter().map(|c| string(&c.name)))
-        .collect();
-    format!("it has neither channels R, G and B nor Y, but {}", names.join(", "))
-}
-
-fn string(text: &Text) -> String {
-    String::from_utf8_lossy(text.as_slice()).into_owned()
-}
-
-fn interleave([r, g, b]: [Vec<f32>; 3]) -> Vec<Rgb> {
-    r.into_iter()
-        .zip(g)
-        .zip(b)
-        .map(|((r, g), b)| Rgb::new(r, g, b))
-        .collect()
-}
-
-/// The display window: what a viewer frames.
-struct Window {
-    x: i32,
-    y: i32,
-    width: usize,
-    height: usize,
-}
-
-impl Window {
-    /// A channel's samples over the window: zero where the layer has none.
-    fn plane(&self, layer: &FlatLayer, channel: &Channel) -> Result<Vec<f32>, String> {
-        if channel.sampling != Vec2(1, 1) {
-            return Err(format!("its channel {} is subsampled", string(&channel.name)));
-        }
-        let mut out = vec![0.0; self.width * self.height];
-        let position = layer.attributes.layer_position;
-        let (dx, dy) = (
-            i64::from(position.0) - i64::from(self.x),
-            i64::from(position.1) - i64::from(self.y),
-        );
-        let inside = |origin: i64, i: usize, size: usize| {
-            usize::try_from(origin + i as i64).ok().filter(|&target| target < size)
-        };
-        for row in 0..layer.size.1 {
-            let Some(y) = inside(dy, row, self.height) else {
-                continue;
-            };
-            for column in 0..layer.size.0 {
-                let Some(x) = inside(dx, column, self.width) else {
-                    continue;
-                };
-                let i = row * layer.size.0 + column;
-                let sample = match &channel.sample_data {
-                    FlatSamples::F16(v) => v.get(i).map(|h| h.to_f32()),
-                    FlatSamples::F32(v) => v.get(i).copied(),
-                    FlatSamples::U32(v) => v.get(i).map(|&u| u as f32),
-                };
-                out[y * self.width + x] = sample.ok_or("it holds fewer samples than its size says")?;
+    #[test]
+    fn damaged_files_are_read_or_refused_but_never_panic() {
+        let y = layer(None, (4, 4), vec![("Y", floats(&[1.5; 16]))]);
+        let whole = file(vec![y], IntegerBounds::from_dimensions((4, 4)));
+        for i in 0..whole.len() {
+            for flip in [0x01, 0x80, 0xff] {
+                let mut damaged = whole.clone();
+                damaged[i] ^= flip;
+                if let Ok(read) = decode_exr(&damaged) {
+                    assert_eq!(read.rgb.len(), read.width as usize * read.height as usize);
+                }
             }
         }
-        Ok(out)
+    }
+
+    #[test]
+    fn errors_name_the_file() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let path = directory.path().join("none.exr");
+        let error = read_exr(&path).expect_err("not there");
+        assert!(
+            matches!(error, ReadError::Io { .. }) && error.to_string().contains("none.exr"),
+            "{error}"
+        );
+        std::fs::write(&path, b"not a picture").expect("written");
+        let error = read_exr(&path).expect_err("not a picture");
+        assert!(
+            matches!(error, ReadError::Format { .. }) && error.to_string().contains("none.exr"),
+            "{error}"
+        );
     }
 }

@@ -157,3 +157,90 @@ fn round_shift(significand: u64, shift: u32) -> u64 {
 pub fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((exponent.clamp(-1022, 1023) + 1023) as u64) << 52)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every sign and exponent, with fractions that are all zeros, all ones, and mixed.
+    fn values() -> impl Iterator<Item = f32> {
+        let lows = [0_u32, 1, 0x5a5a, 0x8000, 0xffff];
+        (0..=0xffff_u32)
+            .flat_map(move |high| lows.map(|low| f32::from_bits(high << 16 | low)))
+            .filter(|v| v.is_finite())
+    }
+
+    const UNITS: [f32; 5] = [1.0, 1e9, 1e-6, f32::MAX, f32::from_bits(1)];
+
+    /// `v` × 2^exponent in parts that stay normal: exact.
+    fn scaled(v: f64, exponent: i32) -> f64 {
+        v * power_of_two(exponent / 2) * power_of_two(exponent - exponent / 2)
+    }
+
+    #[test]
+    fn conversion_agrees_with_a_slow_exact_one_over_every_exponent() {
+        for unit in UNITS.map(Unit::at_least) {
+            for v in values().filter(|v| v.abs() <= unit.limit()) {
+                let exact = scaled(f64::from(v), VALUE_FRACTION_BITS - unit.exponent()).round() as i128;
+                assert_eq!(unit.fixed(v).value, exact, "{v:e} in units of 2^{}", unit.exponent());
+            }
+        }
+    }
+
+    #[test]
+    fn squares_agree_with_a_slow_exact_conversion_over_every_exponent() {
+        for unit in UNITS.map(Unit::at_least) {
+            for v in values().filter(|v| v.abs() <= unit.limit()) {
+                let mut sum = SquareSum::default();
+                sum.add(&unit.fixed(v));
+                let square = scaled(f64::from(v) * f64::from(v), SQUARE_FRACTION_BITS - 2 * unit.exponent()).round();
+                // 48 significant bits: the part above 2⁹⁶ and the part below are exact.
+                let high = (square * power_of_two(-96)).floor();
+                let low = (square - high * power_of_two(96)) as u128;
+                let [a, b, c] = sum.limbs();
+                assert_eq!(
+                    u128::from(a) | u128::from(b as u32) << 64,
+                    low,
+                    "{v:e} in units of 2^{}",
+                    unit.exponent()
+                );
+                assert_eq!(u128::from(b >> 32) | u128::from(c) << 32, high as u128, "{v:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn unit_is_the_smallest_power_of_two_not_below_the_radiance() {
+        for (radiance, exponent) in [(1.0, 0), (1.5, 1), (2.0, 1), (0.75, 0), (1e9, 30), (f32::MAX, 128)] {
+            assert_eq!(Unit::at_least(radiance).exponent(), exponent, "{radiance}");
+        }
+        assert_eq!(Unit::at_least(f32::from_bits(1)).exponent(), -149);
+        for odd in [0.0, -3.0, f32::NAN, f32::INFINITY] {
+            assert_eq!(Unit::at_least(odd).exponent(), 0);
+        }
+    }
+
+    #[test]
+    fn square_sums_carry_across_limbs_and_pin_at_the_top() {
+        let unit = Unit::at_least(1.0);
+        let mut sum = SquareSum([u64::MAX, u64::MAX, 6]);
+        // 2⁻⁵² units, whose square is one step.
+        let step = unit.fixed(power_of_two(-52) as f32);
+        sum.add(&step);
+        assert_eq!(sum.limbs(), [0, 0, 7]);
+        let mut sum = SquareSum([u64::MAX, u64::MAX, u64::MAX - 1]);
+        sum.add(&step);
+        assert!(!sum.is_pinned());
+        for v in [unit.fixed(unit.limit()), step, unit.fixed(0.0)] {
+            sum = SquareSum([u64::MAX; 3]);
+            sum.add(&v);
+            assert!(sum.is_pinned());
+        }
+        let mut sum = SquareSum::default();
+        for _ in 0..256 {
+            assert!(!sum.is_pinned());
+            sum.add(&unit.fixed(unit.limit()));
+        }
+        assert!(sum.is_pinned(), "256 squares of 2^80 are 2^88");
+    }
+}

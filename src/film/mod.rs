@@ -8,19 +8,22 @@
 
 mod accumulate;
 mod develop;
+mod exr_channels;
 mod exr_file;
 mod exr_read;
 mod filter;
 mod fixed;
 mod picture;
 mod png_file;
+mod tally;
 mod wide;
 mod write;
 
-pub use accumulate::{Film, FilmError, Splat, Tally};
+pub use accumulate::{Film, Splat};
 pub use exr_file::{PictureMetadata, encode_exr, write_exr};
 pub use exr_read::{ExrPicture, ReadError, decode_exr, read_exr};
 pub use filter::{Filter, FilterDescription, FilterError};
 pub use picture::{ImageView, Picture};
 pub use png_file::{ToneMap, encode_png, write_png};
+pub use tally::{FilmError, Tally};
 pub use write::{WriteError, write_file};

@@ -97,3 +97,148 @@ pub fn encode_png(picture: ImageView<'_>, tone: ToneMap) -> Result<Vec<u8>, Stri
         .map_err(|e| e.to_string())?;
     Ok(bytes)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn view(rgb: &[Rgb], width: u32) -> ImageView<'_> {
+        ImageView {
+            width,
+            height: rgb.len() as u32 / width,
+            rgb,
+        }
+    }
+
+    #[test]
+    fn known_values_have_their_srgb_codes() {
+        let tone = ToneMap::default();
+        // Code k covers the linear values that encode to k ± 1/2.
+        for (linear, code) in [
+            (0.0, 0),
+            (0.0031308, 10),
+            (0.214_041_14, 128),
+            (0.18, 118),
+            (0.5, 188),
+            (1.0, 255),
+        ] {
+            assert_eq!(tone.encode(linear), code, "{linear}");
+        }
+        // Between the codes 0 and 1, where the function is linear.
+        let half = 0.5 / 255.0 / 12.92;
+        assert_eq!((tone.encode(half * 0.999), tone.encode(half * 1.001)), (0, 1));
+    }
+
+    #[test]
+    fn every_code_comes_back_from_its_linear_value() {
+        for code in 0..=255_u8 {
+            let v = f64::from(code) / 255.0;
+            let linear = if v <= 0.04045 {
+                v / 12.92
+            } else {
+                libm::pow((v + 0.055) / 1.055, 2.4)
+            };
+            assert_eq!(ToneMap::default().encode(linear as f32), code);
+        }
+    }
+
+    #[test]
+    fn odd_values_are_shown_black_or_white() {
+        let odd = [f32::NAN, f32::NEG_INFINITY, -1.0, f32::INFINITY, 7.0];
+        for exposure in [0.0, 20.0, -3.0] {
+            assert_eq!(
+                odd[..4]
+                    .iter()
+                    .map(|&v| ToneMap { exposure }.encode(v))
+                    .collect::<Vec<_>>(),
+                [0, 0, 0, 255]
+            );
+        }
+        assert_eq!(ToneMap::default().encode(7.0), 255);
+        assert_eq!(
+            ToneMap {
+                exposure: f32::INFINITY
+            }
+            .encode(0.0),
+            0
+        );
+    }
+
+    #[test]
+    fn exposure_is_in_stops() {
+        for v in [0.01, 0.1, 0.2] {
+            assert_eq!(ToneMap { exposure: 2.0 }.encode(v), ToneMap::default().encode(4.0 * v));
+        }
+    }
+
+    #[test]
+    fn automatic_exposure_brings_the_log_average_to_middle_grey() {
+        let odd = [Rgb::BLACK, Rgb::splat(f32::NAN), Rgb::splat(f32::INFINITY)];
+        let lit = [Rgb::splat(0.09), Rgb::splat(1.44), odd[0], odd[1], odd[2]];
+        // The geometric mean of 0.09 and 1.44 is 0.36, one stop above 0.18.
+        assert!((ToneMap::automatic(view(&lit, 5)).exposure + 1.0).abs() < 1e-5);
+        assert_eq!(ToneMap::automatic(view(&odd, 3)), ToneMap::default());
+    }
+
+    #[test]
+    fn a_tiny_picture_has_these_bytes() {
+        let rgb = [
+            Rgb::BLACK,
+            Rgb::ONE,
+            Rgb::new(0.18, 0.5, f32::NAN),
+            Rgb::new(2.0, -1.0, 0.0031308),
+        ];
+        let bytes = encode_png(view(&rgb, 2), ToneMap::default()).expect("encoded");
+        let decoded = image::load_from_memory(&bytes).expect("decoded").into_rgb8();
+        assert_eq!(decoded.as_raw()[..], [0, 0, 0, 255, 255, 255, 118, 188, 0, 255, 0, 10]);
+        assert_eq!(bytes, GOLDEN);
+    }
+
+    #[rustfmt::skip]
+    const GOLDEN: [u8; 79] = [
+        137, 80, 78, 71, 13, 10, 26, 10, // signature
+        0, 0, 0, 13, 73, 72, 68, 82, 0, 0, 0, 2, 0, 0, 0, 2, 8, 2, 0, 0, 0, 253, 212, 154, 115, // IHDR
+        0, 0, 0, 22, 73, 68, 65, 84, 120, 156, 99, 97, 96, 96, 248, 255, 255, 63, 75, 217, 30, 6, 6, 70, 110, 0, 33, 196,
+        4, 68, 74, 32, 33, 185, // IDAT
+        0, 0, 0, 0, 73, 69, 78, 68, 174, 66, 96, 130, // IEND
+    ];
+
+    #[test]
+    fn pictures_that_are_not_are_refused() {
+        assert!(
+            encode_png(
+                ImageView {
+                    width: 0,
+                    height: 4,
+                    rgb: &[]
+                },
+                ToneMap::default()
+            )
+            .is_err()
+        );
+        assert!(
+            encode_png(
+                ImageView {
+                    width: 2,
+                    height: 2,
+                    rgb: &[Rgb::ONE]
+                },
+                ToneMap::default()
+            )
+            .is_err()
+        );
+        let directory = tempfile::tempdir().expect("a directory");
+        let path = directory.path().join("x.png");
+        let error = write_png(
+            &path,
+            ImageView {
+                width: 1,
+                height: 0,
+                rgb: &[],
+            },
+            ToneMap::default(),
+        )
+        .expect_err("empty");
+        assert!(error.to_string().contains("x.png") && !path.exists());
+    }
+}

@@ -79,3 +79,45 @@ fn to_f64(a: Limbs) -> f64 {
     // `lead` counts multiples of 2^(64 (top − 1)).
     lead as f64 * super::fixed::power_of_two(64 * (top as i32 - 1))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::fixed::power_of_two;
+
+    #[test]
+    fn difference_of_close_giants_keeps_its_last_bit() {
+        // S = 2^100 + 1, so S² = 2^200 + 2^101 + 1; S₂ lifted by 24 is 2^200 + 2^101 + 2^24.
+        let squares = [1, 1 << (77 - 64), 1 << (176 - 128)];
+        for sum in [(1_i128 << 100) + 1, -(1_i128 << 100) - 1] {
+            assert_eq!(scatter(1, squares, sum), power_of_two(24) - 1.0);
+        }
+    }
+
+    #[test]
+    fn small_numbers_agree_with_plain_integers() {
+        for n in [1_u64, 2, 1000, 1 << 30] {
+            for squares in [0_u64, 1, 12345, 1 << 40] {
+                for sum in [0_i128, 1, -77, 1 << 40] {
+                    let exact = ((i128::from(n) * i128::from(squares)) << 24) - sum * sum;
+                    assert_eq!(scatter(n, [squares, 0, 0], sum), exact.max(0) as f64);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn largest_operands_fit() {
+        let largest = scatter(u64::MAX, [u64::MAX; 3], 0);
+        assert_eq!(largest, power_of_two(64 + 192 + 24), "rounded to 53 bits");
+        assert_eq!(scatter(1, [0; 3], i128::MIN), 0.0, "a negative difference is zero");
+        let m = power_of_two(254);
+        assert_eq!(
+            scatter(1, [0, 0, 1 << 63], 0) - scatter(1, [0, 0, 1 << 63], 1 << 63),
+            0.0,
+            "below 53 bits of 2^215"
+        );
+        assert_eq!(to_f64(square(u128::MAX >> 1)), m);
+        assert_eq!(square(u128::MAX), [1, 0, u64::MAX - 1, u64::MAX, 0]);
+    }
+}

@@ -73,3 +73,63 @@ fn replace(directory: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> {
     file.as_file().sync_all()?;
     file.persist(path).map(drop).map_err(|e| e.error)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(directory: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(directory).expect("the directory is there");
+        entries
+            .map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned())
+            .collect()
+    }
+
+    #[test]
+    fn a_file_is_written_and_replaced_whole() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let path = directory.path().join("picture.bin");
+        for content in [&b"a longer first version"[..], b"second"] {
+            write_file(&path, content).expect("written");
+            assert_eq!(std::fs::read(&path).expect("read"), content);
+        }
+        assert_eq!(names(directory.path()), ["picture.bin"]);
+    }
+
+    #[test]
+    fn a_missing_directory_is_named() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let error = write_file(&directory.path().join("none/picture.bin"), b"x").expect_err("nowhere to write");
+        assert!(
+            matches!(&error, WriteError::NoDirectory { directory, .. } if directory.ends_with("none")),
+            "{error}"
+        );
+        assert!(names(directory.path()).is_empty());
+    }
+
+    #[test]
+    fn a_write_that_fails_at_the_end_leaves_nothing_behind() {
+        let directory = tempfile::tempdir().expect("a directory");
+        // A directory cannot be replaced by a file: all is written, and the rename fails.
+        let path = directory.path().join("taken");
+        std::fs::create_dir(&path).expect("a directory");
+        let error = write_file(&path, b"x").expect_err("cannot replace a directory");
+        assert!(
+            matches!(error, WriteError::Io { .. }) && error.to_string().contains("taken"),
+            "{error}"
+        );
+        assert_eq!(names(directory.path()), ["taken"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn the_file_has_the_permissions_of_any_new_file() {
+        use std::os::unix::fs::PermissionsExt;
+        let directory = tempfile::tempdir().expect("a directory");
+        let [ours, plain] = ["ours", "plain"].map(|name| directory.path().join(name));
+        write_file(&ours, b"x").expect("written");
+        std::fs::write(&plain, b"x").expect("written");
+        let mode = |path: &Path| std::fs::metadata(path).expect("metadata").permissions().mode();
+        assert_eq!(mode(&ours), mode(&plain));
+    }
+}

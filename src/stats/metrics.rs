@@ -23,7 +23,8 @@ pub struct Metrics {
     pub rel_mse_trimmed: f64,
     /// Mean absolute relative error: mean |a − r| / (|r| + 0.01).
     pub mape: f64,
-    /// mean a / mean r, all channels together: what a loss or gain of energy shows in. Not-a-number where r is black.
+    /// mean a / mean r, all channels together: what a loss or gain of energy shows in. Not a finite number where
+    /// r is black (and then `null` in JSON).
     pub mean_ratio: f64,
     /// mean a / mean r, per channel, red first.
     pub channel_mean_ratio: [f64; 3],
@@ -102,4 +103,88 @@ pub fn compare(image: ImageView<'_>, reference: ImageView<'_>) -> Result<Metrics
 
 fn wide(c: Rgb) -> [f64; 3] {
     c.to_array().map(f64::from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn view(rgb: &[Rgb]) -> ImageView<'_> {
+        ImageView {
+            width: rgb.len() as u32,
+            height: 1,
+            rgb,
+        }
+    }
+
+    fn assert_near(got: f64, expected: f64) {
+        assert!(
+            (got - expected).abs() <= 1e-12 * expected.abs(),
+            "{got} is not {expected}"
+        );
+    }
+
+    #[test]
+    fn metrics_are_as_computed_by_hand() {
+        let a = [Rgb::new(1.0, 2.0, 0.5), Rgb::BLACK];
+        let r = [Rgb::new(0.5, 2.0, 1.0), Rgb::new(0.0, 0.0, 0.25)];
+        let m = compare(view(&a), view(&r)).expect("same size");
+        // Differences: 0.5, 0, -0.5; 0, 0, -0.25.
+        assert_near(m.mse, (0.25 + 0.25 + 0.0625) / 6.0);
+        assert_near(m.rel_mse, (0.25 / 0.26 + 0.25 / 1.01 + 0.0625 / 0.0725) / 6.0);
+        assert_near(m.mape, (0.5 / 0.51 + 0.5 / 1.01 + 0.25 / 0.26) / 6.0);
+        assert_near(m.mean_ratio, 3.5 / 3.75);
+        assert_eq!(m.channel_mean_ratio, [2.0, 1.0, 0.4]);
+        assert_eq!((m.max_abs_error, m.compared, m.non_finite), (0.5, 2, 0));
+        // One of two pixels is left out: the first, with the larger error.
+        assert_near(m.rel_mse_trimmed, 0.0625 / 0.0725 / 3.0);
+    }
+
+    #[test]
+    fn one_outlier_in_a_thousand_rules_the_error_but_not_the_trimmed_one() {
+        let r = vec![Rgb::ONE; 1000];
+        let mut a = vec![Rgb::splat(1.1); 1000];
+        a[123] = Rgb::splat(1e6);
+        let m = compare(view(&a), view(&r)).expect("same size");
+        assert!(m.rel_mse > 1e8);
+        let pixel = f64::from(1.1_f32) - 1.0;
+        assert!((m.rel_mse_trimmed - pixel * pixel / 1.01).abs() < 1e-12);
+    }
+
+    #[test]
+    fn pixels_that_are_not_finite_are_left_out_and_counted() {
+        let a = [Rgb::splat(2.0), Rgb::new(f32::NAN, 1.0, 1.0), Rgb::ONE];
+        let r = [Rgb::ONE, Rgb::ONE, Rgb::new(1.0, 1.0, f32::INFINITY)];
+        let m = compare(view(&a), view(&r)).expect("same size");
+        assert_eq!((m.compared, m.non_finite, m.mse, m.mean_ratio), (1, 2, 1.0, 2.0));
+        let m = compare(view(&a[1..]), view(&r[1..])).expect("same size");
+        assert_eq!((m.compared, m.mse, m.rel_mse_trimmed), (0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn a_picture_equals_itself() {
+        let a = [Rgb::new(0.1, 1e20, 0.0), Rgb::splat(3.0)];
+        let m = compare(view(&a), view(&a)).expect("same size");
+        assert_eq!(
+            (m.mse, m.rel_mse, m.mape, m.max_abs_error, m.mean_ratio),
+            (0.0, 0.0, 0.0, 0.0, 1.0)
+        );
+    }
+
+    #[test]
+    fn different_sizes_are_an_error_that_names_both() {
+        let a = [Rgb::ONE; 6];
+        let wide = ImageView {
+            width: 3,
+            height: 2,
+            rgb: &a,
+        };
+        let tall = ImageView {
+            width: 2,
+            height: 3,
+            rgb: &a,
+        };
+        let error = compare(wide, tall).expect_err("other sides").to_string();
+        assert!(error.contains("3 x 2") && error.contains("2 x 3"), "{error}");
+    }
 }

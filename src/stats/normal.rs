@@ -42,3 +42,37 @@ pub(super) fn bisect(mut low: f64, mut high: f64, before: impl Fn(f64) -> bool) 
     }
     0.5 * (low + high)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use statrs::distribution::{ContinuousCDF, Normal};
+
+    #[test]
+    fn tails_agree_with_an_independent_implementation() {
+        let normal = Normal::standard();
+        for z in [-8.0, -1.0, 0.0, 0.5, 1.96, 5.0, 10.0] {
+            let expected = normal.sf(z);
+            assert!((upper_tail(z) - expected).abs() <= 1e-9 * expected, "{z}");
+            let expected = 2.0 * normal.sf(z.abs());
+            assert!((two_sided_p(z) - expected).abs() <= 1e-9 * expected, "{z}");
+        }
+    }
+
+    #[test]
+    fn quantiles_invert_the_tail() {
+        for p in [1e-300, 1e-12, 0.025, 0.5, 0.9, 1.0 - 1e-9] {
+            assert!((upper_tail(upper_quantile(p)) - p).abs() <= 1e-12 * p, "{p}");
+        }
+        assert!((upper_quantile(0.025) - 1.959_963_984_540_054).abs() < 1e-12);
+    }
+
+    #[test]
+    fn sidak_keeps_the_chance_that_all_tests_pass() {
+        for (alpha, tests) in [(0.05, 1), (0.01, 20), (1e-3, 100_000)] {
+            let all_pass = libm::pow(1.0 - sidak(alpha, tests), tests as f64);
+            assert!((all_pass - (1.0 - alpha)).abs() < 1e-9);
+        }
+        assert_eq!(sidak(0.05, 0), sidak(0.05, 1));
+    }
+}
