@@ -76,6 +76,7 @@ impl SceneArgs {
         Ok(Loaded {
             scene,
             plan,
+            filter: source.description.film.filter.clone(),
             warnings,
             load_time: start.elapsed(),
         })
@@ -84,13 +85,12 @@ impl SceneArgs {
 
 /// Settings that shape the picture, as its metadata names them.
 pub fn settings(loaded: &Loaded) -> String {
-    let Scene {
-        width,
-        height,
-        max_depth,
-        filter,
-        ..
-    } = &*loaded.scene;
+    let Scene { width, height, max_depth, .. } = &*loaded.scene;
+    let filter = match loaded.filter {
+        FilterDescription::Box { radius } => format!("box({radius})"),
+        FilterDescription::Tent { radius } => format!("tent({radius})"),
+        FilterDescription::Gaussian { radius, sigma } => format!("gaussian({radius}, {sigma})"),
+    };
     format!("size={width}x{height} max_depth={max_depth} filter={filter}")
 }
 

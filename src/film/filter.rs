@@ -7,38 +7,8 @@
 mod gaussian;
 mod tent;
 
+use crate::scene::FilterDescription;
 use gaussian::TruncatedGaussian;
-use serde::{Deserialize, Serialize};
-
-/// A filter as a scene describes it. Lengths are in pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum FilterDescription {
-    /// Constant over a square.
-    Box {
-        /// Half the square's side. 0.5 is the pixel itself.
-        radius: f32,
-    },
-    /// Falls linearly to zero.
-    Tent {
-        /// Where it reaches zero.
-        radius: f32,
-    },
-    /// A normal density, cut off at the radius.
-    Gaussian {
-        /// Where it is cut off.
-        radius: f32,
-        /// Its standard deviation before the cut.
-        sigma: f32,
-    },
-}
-
-impl Default for FilterDescription {
-    /// The pixel's own square.
-    fn default() -> Self {
-        Self::Box { radius: 0.5 }
-    }
-}
 
 /// Why a description is no filter.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
@@ -74,14 +44,14 @@ impl Filter {
     ///
     /// # Errors
     /// Where a length is out of range or not a number.
-    pub fn new(description: FilterDescription) -> Result<Self, FilterError> {
+    pub fn new(description: &FilterDescription) -> Result<Self, FilterError> {
         let (FilterDescription::Box { radius }
         | FilterDescription::Tent { radius }
-        | FilterDescription::Gaussian { radius, .. }) = description;
+        | FilterDescription::Gaussian { radius, .. }) = *description;
         if !(1e-3..=1e3).contains(&radius) {
             return Err(FilterError::Radius(radius));
         }
-        Ok(Self(match description {
+        Ok(Self(match *description {
             FilterDescription::Box { .. } => Kind::Box { radius },
             FilterDescription::Tent { .. } => Kind::Tent { radius },
             FilterDescription::Gaussian { sigma, .. } => {
@@ -167,7 +137,7 @@ mod tests {
         ]
     }
 
-    fn filter(description: FilterDescription) -> Filter {
+    fn filter(description: &FilterDescription) -> Filter {
         Filter::new(description).expect("a valid description")
     }
 
@@ -216,7 +186,7 @@ mod tests {
     #[test]
     fn densities_integrate_to_one() {
         for description in filters() {
-            let total: f64 = probabilities(&filter(description)).iter().sum();
+            let total: f64 = probabilities(&filter(&description)).iter().sum();
             assert!((total - 1.0).abs() < 1e-5, "{description:?}: {total}");
         }
     }
@@ -226,7 +196,7 @@ mod tests {
         let filters = filters();
         let alpha = sidak(ALPHA, filters.len());
         for description in filters {
-            let result = test(&filter(description), |u| u);
+            let result = test(&filter(&description), |u| u);
             // What it would have seen: cells off by this much in the root mean square, 19 times in 20.
             let visible = result.smallest_visible_deviation(alpha, 0.95);
             assert!(
@@ -242,7 +212,7 @@ mod tests {
         let filters = filters();
         let alpha = sidak(ALPHA, filters.len());
         for description in filters {
-            let result = test(&filter(description), |u| u + 0.03 * u * (1.0 - u));
+            let result = test(&filter(&description), |u| u + 0.03 * u * (1.0 - u));
             assert!(result.p < alpha, "{description:?}: {result:?}");
         }
     }
@@ -254,7 +224,7 @@ mod tests {
             radius: 3.0,
             sigma: 0.1,
         }]) {
-            let filter = filter(description);
+            let filter = filter(&description);
             let x = |i: u32| filter.sample([i as f32 / STEPS as f32, 0.5])[0];
             // Dense around the joints of any table of up to 512 pieces, and at both ends.
             let dense = (0..=512_u32).flat_map(|k| {
@@ -279,13 +249,13 @@ mod tests {
     fn nonsense_is_refused() {
         for radius in [0.0, -1.0, f32::NAN, f32::INFINITY] {
             assert!(matches!(
-                Filter::new(FilterDescription::Box { radius }),
+                Filter::new(&FilterDescription::Box { radius }),
                 Err(FilterError::Radius(_))
             ));
         }
         for sigma in [0.0, -1.0, f32::NAN, 1e9] {
             assert!(matches!(
-                Filter::new(FilterDescription::Gaussian { radius: 1.0, sigma }),
+                Filter::new(&FilterDescription::Gaussian { radius: 1.0, sigma }),
                 Err(FilterError::Sigma { .. })
             ));
         }

@@ -22,7 +22,7 @@ mod write;
 pub use accumulate::{Film, Splat};
 pub use exr_file::{PictureMetadata, encode_exr, write_exr};
 pub use exr_read::{ExrPicture, ReadError, decode_exr, read_exr};
-pub use filter::{Filter, FilterDescription, FilterError};
+pub use filter::{Filter, FilterError};
 pub use picture::{ImageView, Picture};
 pub use png_file::{ToneMap, encode_png, write_png};
 pub use tally::{FilmError, Tally};

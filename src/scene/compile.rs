@@ -1,7 +1,7 @@
 //! From flattened shapes to the read-only tables that rendering walks.
 
 use super::flatten::{Emission, Flattened, Geometry as Shape};
-use super::{FilterDescription, Mesh, SceneDescription};
+use super::{Mesh, SceneDescription};
 use crate::camera::Perspective;
 use crate::color::Rgb;
 use crate::film::{Filter, FilterError};
@@ -55,11 +55,7 @@ impl Scene {
         let (width, height) = overrides
             .size
             .unwrap_or((description.film.width, description.film.height));
-        let filter = Filter::new(match description.film.filter {
-            FilterDescription::Box { radius } => crate::film::FilterDescription::Box { radius },
-            FilterDescription::Tent { radius } => crate::film::FilterDescription::Tent { radius },
-            FilterDescription::Gaussian { radius, sigma } => crate::film::FilterDescription::Gaussian { radius, sigma },
-        })?;
+        let filter = Filter::new(&description.film.filter)?;
         let mut tables = Tables::new(flattened);
         for instance in &flattened.instances {
             match &instance.geometry {
