@@ -79,6 +79,10 @@ pub(super) fn complain_ron(code: ron::Error, found: &str, before: &str) -> Compl
         E::ExpectedComma if found.parse::<f64>().is_ok() && !before.ends_with([')', ']', '}', '"']) => {
             Complaint::new(expected_found("u32", &quoted(found)), "")
         }
+        E::ExpectedComma if before.ends_with('"') => Complaint::new(
+            expected_found("`,`", &quoted(found)),
+            "is a quotation mark missing above?",
+        ),
         E::ExpectedStructLike | E::ExpectedNamedStructLike(_) => expected_bracket(found, before),
         E::ExpectedStructLikeEnd => Complaint::new(
             expected_found("`)`", &quoted(found)),
@@ -109,11 +113,9 @@ fn expected_bracket(found: &str, before: &str) -> Complaint {
     } else if found.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
         "one number is not enough: write `(x, y, z)`".to_owned()
     } else {
-        let name = name(before);
-        if name.is_empty() {
-            String::new()
-        } else {
-            format!("write `{name}(...)`, or `{name}()` for the defaults")
+        match name(before) {
+            name if name.is_empty() => "is a bracket missing above?".to_owned(),
+            name => format!("write `{name}(...)`, or `{name}()` for the defaults"),
         }
     };
     Complaint::new(expected_found("`(`", &quoted(found)), help)
@@ -153,6 +155,9 @@ pub(super) fn complain_json(error: &serde_json::Error, found: &str) -> Complaint
             format!("unexpected {}", quoted(found)),
             "is there a value or a bracket too many?",
         )
+    } else if text == "key must be a string" || text == "trailing comma" {
+        let help = "JSON has no comments, and no comma before a closing bracket; RON has both";
+        Complaint::new(expected_found("a string", &quoted(found)), help)
     } else if text == "number out of range" {
         Complaint::new(
             expected_found("f32", &quoted(found)),

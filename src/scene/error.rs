@@ -47,8 +47,8 @@ impl Finding {
 
     /// Points at `span` of `text`, shortened to its first line; `label` is what the source view says there.
     fn at(mut self, text: &Arc<str>, span: Range<usize>, label: String) -> Self {
-        let start = floor_char_boundary(text, span.start);
-        let end = floor_char_boundary(text, span.end.max(start));
+        let start = text.floor_char_boundary(span.start);
+        let end = text.floor_char_boundary(span.end.max(start));
         let line_end = text[start..].find('\n').map_or(text.len(), |offset| start + offset);
         let (line, column) = line_and_column(text, start);
         self.place = Some(Place {
@@ -71,15 +71,6 @@ impl Finding {
         }
         plain
     }
-}
-
-/// The largest character boundary of `text` that is not above `at`.
-fn floor_char_boundary(text: &str, at: usize) -> usize {
-    let mut at = at.min(text.len());
-    while !text.is_char_boundary(at) {
-        at -= 1;
-    }
-    at
 }
 
 /// Line and column (in characters), both from 1, of a byte offset on a character boundary.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// A camera. World space, right-handed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename = "camera")]
+#[serde(deny_unknown_fields, rename = "kind of camera")]
 pub enum CameraDescription {
     /// A pinhole camera: everything is in focus.
     Perspective {

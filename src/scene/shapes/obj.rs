@@ -168,7 +168,7 @@ impl Builder<'_> {
         }
         let kept: Vec<usize> = (0..all).filter(|&triangle| mesh.has_area(triangle)).collect();
         if kept.is_empty() {
-            let message = format!("{shown}: none of its {all} triangles has an area");
+            let message = format!("{shown}: none of its triangles has an area ({all} read)");
             return Err(at.error(message, "is it scaled down too far?"));
         }
         if kept.len() < all {
@@ -177,7 +177,7 @@ impl Builder<'_> {
             self.emission = kept.iter().map(|&triangle| self.emission[triangle]).collect();
             let dropped = all - kept.len();
             warn(
-                format!("{dropped} of {all} triangles have no area and are left out"),
+                format!("triangles without an area are left out: {dropped} of {all}"),
                 "",
             );
         }
@@ -186,7 +186,7 @@ impl Builder<'_> {
         if repairs.missing > 0 {
             warn(
                 format!(
-                    "{} of {corners} corners have no normal and are shaded flat",
+                    "corners without a normal are shaded flat: {} of {corners}",
                     repairs.missing
                 ),
                 "",
@@ -194,8 +194,8 @@ impl Builder<'_> {
         }
         if repairs.opposed > 0 {
             let message = format!(
-                "at {} of {corners} corners the normal points away from the side that the winding says is the \
-                 front; they are shaded flat",
+                "corners whose normal points away from the front, as the winding has it, are shaded flat: {} of \
+                 {corners}",
                 repairs.opposed
             );
             warn(message, "turn the faces or the normals over, or set `smooth: false`");
