@@ -46,9 +46,14 @@ impl Complaint {
     }
 }
 
+/// What a block is called in messages: its serde name, which RON wants to be an identifier.
+fn plain_name(name: &str) -> String {
+    name.replace('_', " ")
+}
+
 /// The name of a block in a message.
 fn within(outer: Option<&str>) -> String {
-    outer.map_or_else(String::new, |outer| format!(" in this {outer}"))
+    outer.map_or_else(String::new, |outer| format!(" in this {}", plain_name(outer)))
 }
 
 /// Rewords RON's complaint; `found` is the token where it stands, `before` the text that precedes it.
@@ -57,7 +62,8 @@ pub(super) fn complain_ron(code: ron::Error, found: &str, before: &str) -> Compl
     match code {
         E::NoSuchStructField { expected, found, .. } => Complaint::unknown("field", &found, expected.iter().copied()),
         E::NoSuchEnumVariant { expected, found, outer } => {
-            Complaint::unknown(outer.as_deref().unwrap_or("name"), &found, expected.iter().copied())
+            let what = plain_name(outer.as_deref().unwrap_or("name"));
+            Complaint::unknown(&what, &found, expected.iter().copied())
         }
         E::MissingStructField { field, outer } => {
             Complaint::missing(field, outer.as_deref(), &format!("`{field}: ...`"))
@@ -69,7 +75,7 @@ pub(super) fn complain_ron(code: ron::Error, found: &str, before: &str) -> Compl
         }
         E::ExpectedDifferentStructName { expected, .. } => Complaint::new(
             expected_found("`(`", &quoted(found)),
-            format!("a {expected} begins with a bracket alone"),
+            format!("a {} begins with a bracket alone", plain_name(expected)),
         ),
         E::IntegerOutOfBounds => Complaint::new(expected_found("u32", &quoted(found)), ""),
         E::ExceededRecursionLimit => Complaint::new("brackets are nested too deeply", ""),

@@ -29,8 +29,8 @@
 //! )
 //! ```
 //!
-//! The same structure in JSON: brackets of fields and `{}` become objects, brackets of numbers and `[]` become arrays, and a name before
-//! a bracket becomes an object of one key: `{"Sphere": {"radius": 0.5}}`, `{"Translate": [1, 2, 3]}`.
+//! The same structure in JSON: brackets of fields and `{}` become objects, brackets of numbers and `[]` become arrays,
+//! and a name before a bracket becomes an object of one key: `{"Sphere": {"radius": 0.5}}`, `{"Translate": [1, 2, 3]}`.
 //!
 //! # Units and conventions
 //!
@@ -63,14 +63,14 @@
 //! exterior of a `Dielectric`. Materials with `two_sided: true`, which is the default, shade both sides alike.
 //!
 //! Transforms apply in the order listed, about the origin of the world. Those that mirror keep normals on the side of the
-//! surface where they were: boxes and spheres stay outward, and a mesh's triangles are turned over. A sphere's transform must scale all
-//! lengths alike, within a relative tolerance of 1e-4 ([`SIMILARITY_TOLERANCE`](transform::SIMILARITY_TOLERANCE)).
+//! surface where they were: boxes and spheres stay outward, and a mesh's triangles are turned over. A sphere's transform
+//! must scale all lengths alike, within a relative tolerance of 1e-4 ([`SIMILARITY_TOLERANCE`](transform::SIMILARITY_TOLERANCE)).
 //!
 //! # Meshes
 //!
 //! `Obj(file: "meshes/x.obj")` reads polygons, and cuts them into fans of triangles: concave ones should be cut before.
-//! The file's name is relative to the folder of the scene file. Vertex normals shade it unless `smooth: false`; a corner without one, or
-//! with one that points away from the geometric normal, is shaded flat. Triangles without an area are left out, with a
+//! The file's name is relative to the folder of the scene file. Vertex normals shade it unless `smooth: false`; a corner
+//! without one, or with one that points away from the geometric normal, is shaded flat. Triangles without an area are left out, with a
 //! warning. Where the shape has no `material`, the mesh's own material library (MTL) is read:
 //!
 //! | in the library | becomes |
@@ -107,3 +107,70 @@ pub use flatten::{Emission, Flattened, Geometry, Instance, flatten};
 pub use mesh::{MAX_COORDINATE, Mesh, triangle_cross};
 pub use read::{Format, SceneSource, Step, parse_scene, read_scene};
 pub use validate::validate;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    /// The example in the manual above.
+    fn example() -> String {
+        let lines = include_str!("mod.rs")
+            .lines()
+            .map(|line| line.trim_start_matches("//!"));
+        lines
+            .skip_while(|line| line.trim() != "```ron")
+            .skip(1)
+            .take_while(|line| line.trim() != "```")
+            .collect::<Vec<_>>()
+            .join("\n")
+    }
+
+    #[test]
+    fn the_manuals_example_is_a_valid_scene() {
+        let source = parse_scene("manual.ron", &example(), Format::Ron, Path::new(""));
+        let flattened = source.and_then(|source| flatten(&source)).expect("a valid scene");
+        assert_eq!(flattened.instances.len(), 4);
+        assert!(flattened.warnings.is_empty());
+        assert_eq!(flattened.instances[0].name, "floor");
+        assert_eq!(flattened.instances[1].name, "shapes[1]");
+    }
+
+    #[test]
+    fn a_description_survives_being_written_and_read() {
+        let description = parse_scene("manual.ron", &example(), Format::Ron, Path::new(""))
+            .expect("valid")
+            .description;
+        let ron = ron::ser::to_string_pretty(&description, ron::ser::PrettyConfig::default()).expect("RON");
+        let json = serde_json::to_string(&description).expect("JSON");
+        for (text, format) in [(ron, Format::Ron), (json, Format::Json)] {
+            let again = parse_scene("again", &text, format, Path::new("")).expect("valid");
+            assert_eq!(again.description, description);
+        }
+    }
+
+    #[test]
+    fn defaults_are_those_documented() {
+        let text = r#"(version: 1, camera: Perspective(origin: (0, 0, 1), target: (0, 0, 0), fov: 40),
+            film: (width: 1, height: 1), shapes: [])"#;
+        let scene = parse_scene("test.ron", text, Format::Ron, Path::new(""))
+            .expect("valid")
+            .description;
+        assert_eq!(
+            scene.settings,
+            SettingsDescription {
+                max_depth: 16,
+                technique: None
+            }
+        );
+        assert_eq!(scene.film.filter, FilterDescription::Box { radius: 0.5 });
+        let CameraDescription::Perspective { up, fov_axis, .. } = scene.camera;
+        assert_eq!((up, fov_axis), ([0.0, 1.0, 0.0], FovAxis::Vertical));
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_passed_over() {
+        let text = format!("\u{feff}{}", testing::scene_of("Sphere(radius: 1)", ""));
+        assert!(parse_scene("test.ron", &text, Format::Ron, Path::new("")).is_ok());
+    }
+}
