@@ -168,6 +168,38 @@ fn wavefront(keywords: &'static [&'static str]) -> impl Strategy<Value = String>
     proptest::collection::vec(line, 0..24).prop_map(|lines| lines.join("\n"))
 }
 
+/// A mesh that is right in most of its lines, so that most reach the triangles and their normals.
+fn nearly_right_mesh() -> impl Strategy<Value = String> {
+    let number =
+        prop_oneof![8 => (-3..4_i32).prop_map(|n| n.to_string()), 1 => "-?[0-9]\\.[0-9]{1,7}", 1 => "-?[1-9]e-?[0-9]"];
+    let vector = |keyword: &'static str, count: usize| {
+        proptest::collection::vec(number.clone(), count)
+            .prop_map(move |numbers| format!("{keyword} {}", numbers.join(" ")))
+    };
+    let corner = prop_oneof![
+        "[1-3]",
+        "-[1-3]",
+        "[1-3]/[12]",
+        "[1-3]//[12]",
+        "[1-3]/[12]/[12]",
+        "-[1-3]/-1/-1"
+    ];
+    let face = proptest::collection::vec(corner, 3..6).prop_map(|corners| format!("f {}", corners.join(" ")));
+    let line = prop_oneof![
+        4 => vector("v", 3),
+        2 => vector("vn", 3),
+        1 => vector("vt", 2),
+        6 => face,
+        1 => proptest::sample::select(vec!["usemtl red", "usemtl blue", "o thing", "# word", "l 1 2"]).prop_map(str::to_owned),
+    ];
+    proptest::collection::vec(line, 0..40).prop_map(|lines| {
+        format!(
+            "mtllib mesh.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\nvn 0 1 1\n{}\nf 1 2 3\n",
+            lines.join("\n")
+        )
+    })
+}
+
 const OBJ: [&str; 14] = [
     "v",
     "v",
@@ -252,6 +284,23 @@ proptest! {
         let text = RON.replace("shape: Box(min: (1, 2, 3), max: (4, 5, 6)), material: \"gold\"", &mesh);
         let said = exercise(&text, Format::Ron, folder.path());
         prop_assert!(!said.contains("the OBJ reader stopped"), "not caught before: {said}");
+    }
+
+    #[test]
+    fn a_nearly_right_mesh_is_placed_as_promised(
+        obj in nearly_right_mesh(), scale in proptest::array::uniform3(-2.0_f32..2.0), own in any::<bool>(), smooth in any::<bool>()
+    ) {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join("mesh.obj"), obj).expect("a mesh");
+        fs::write(folder.path().join("mesh.mtl"), "newmtl red\nKd 1 0 0\nnewmtl blue\nKe 0 0 1\n").expect("a library");
+        let [x, y, z] = scale.map(|factor| if factor.abs() < 1.0e-3 { 1.0e-12 } else { factor });
+        let material = if own { "" } else { ", material: \"gold\"" };
+        let mesh = format!(
+            "shape: Obj(file: \"mesh.obj\", smooth: {smooth}){material}, transform: [Scale(({x}, {y}, {z}))]"
+        );
+        let text = RON.replace("shape: Box(min: (1, 2, 3), max: (4, 5, 6)), material: \"gold\"", &mesh);
+        let said = exercise(&text, Format::Ron, folder.path());
+        prop_assert!(!said.contains("expected") && !said.contains("refers"), "refused: {said}");
     }
 
     #[test]

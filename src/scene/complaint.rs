@@ -77,7 +77,9 @@ pub(super) fn complain_ron(code: ron::Error, found: &str, before: &str) -> Compl
             expected_found("`(`", &quoted(found)),
             format!("a {} begins with a bracket alone", plain_name(expected)),
         ),
-        E::IntegerOutOfBounds => Complaint::new(expected_found("u32", &quoted(found)), ""),
+        E::IntegerOutOfBounds | E::InvalidIntegerDigit { .. } | E::UnderscoreAtBeginning => {
+            Complaint::new(expected_found("u32", &quoted(found)), "")
+        }
         E::ExceededRecursionLimit => Complaint::new("brackets are nested too deeply", ""),
         E::TrailingCharacters => Complaint::new(expected_found("the end of the file", &quoted(found)), ""),
         E::Eof => Complaint::new("the file ends too early", "is a bracket or a quote not closed?"),
@@ -169,6 +171,8 @@ pub(super) fn complain_json(error: &serde_json::Error, found: &str) -> Complaint
             expected_found("f32", &quoted(found)),
             "the largest number is about 3.4e38",
         )
+    } else if text == "invalid number" {
+        Complaint::new(expected_found("f32", &quoted(found)), "")
     } else if let Some(expected) = text.strip_prefix("expected ") {
         Complaint::new(expected_found(expected, &quoted(found)), "")
     } else {
@@ -186,7 +190,7 @@ fn expected_found(expected: &str, found: &str) -> String {
         "comma" => "`,`".to_owned(),
         "colon" => "`:`".to_owned(),
         "identifier" => "a name followed by `(`".to_owned(),
-        "value" => "a value".to_owned(),
+        "value" | "ident" => "a value".to_owned(),
         "end of string" => "`\"` at the end of the string".to_owned(),
         _ => match expected.strip_prefix("an array of length ") {
             Some(length) => format!("{length} values"),

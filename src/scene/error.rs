@@ -178,8 +178,10 @@ macro_rules! finding {
 finding!(SceneError, miette::Severity::Error);
 finding!(SceneWarning, miette::Severity::Warning);
 
-/// Advice for a name that is none of `known`: the nearest of them, and all of them where they are few.
-pub(super) fn nearest_name<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+/// Advice for the name `found`, which is none of `known`: the nearest of them, and all of them where they are few. Empty
+/// where there is nothing to say.
+#[must_use]
+pub fn nearest_name<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.into_iter().collect();
     let distance = |name: &str| strsim::damerau_levenshtein(&found.to_lowercase(), &name.to_lowercase());
     let nearest = (found.len() <= 64)

@@ -102,7 +102,7 @@ pub use description::{
     CameraDescription, FilmDescription, FilterDescription, FovAxis, MaterialDescription, SceneDescription,
     SettingsDescription, ShapeDescription, ShapeKind, TransformStep,
 };
-pub use error::{SceneError, SceneWarning};
+pub use error::{SceneError, SceneWarning, nearest_name};
 pub use flatten::{Emission, Flattened, Geometry, Instance, flatten};
 pub use mesh::{MAX_COORDINATE, Mesh, triangle_cross};
 pub use read::{Format, SceneSource, Step, parse_scene, read_scene};
