@@ -1,1 +1,4 @@
 //! One integration-test binary; each concern is a module beside this file.
+
+mod broken_scenes;
+mod scene_fuzz;

@@ -60,26 +60,40 @@ impl<'a> At<'a> {
         self.source.warning(&self.steps, message, help)
     }
 
+    /// The name of the innermost field, to begin a message with: `fov: `.
+    fn field(&self) -> String {
+        let keys = self.steps.iter().rev();
+        let mut names = keys.filter_map(|step| if let Step::Key(name) = step { Some(name) } else { None });
+        names.next().map_or_else(String::new, |name| format!("{name}: "))
+    }
+
     /// Refuses infinities and values that are not numbers.
     pub(super) fn finite(&self, value: f32) -> Result<(), SceneError> {
         if value.is_finite() {
-            Ok(())
-        } else {
-            Err(self.error(
-                format!("expected a finite number, found {value}"),
-                "the largest number is about 3.4e38",
-            ))
+            return Ok(());
         }
+        let help = if value.is_nan() {
+            ""
+        } else {
+            "the largest number is about 3.4e38"
+        };
+        Err(self.error(format!("{}expected a finite number, found {value}", self.field()), help))
     }
 
     /// Refuses values outside `least..=most`; `help` says what is usual.
     pub(super) fn within(&self, value: f32, least: f32, most: f32, help: &str) -> Result<(), SceneError> {
         self.finite(value)?;
         if (least..=most).contains(&value) {
-            Ok(())
-        } else {
-            Err(self.error(format!("expected a number from {least} to {most}, found {value}"), help))
+            return Ok(());
         }
+        let [least, most, value] = [least, most, value].map(short);
+        Err(self.error(
+            format!(
+                "{}expected a number from {least} to {most}, found {value}",
+                self.field()
+            ),
+            help,
+        ))
     }
 
     /// [`At::within`], for every element.
@@ -111,6 +125,15 @@ impl<'a> At<'a> {
             return Err(self.error("this direction is too short to compute with", "such as (0, 1, 0)"));
         }
         Ok(direction)
+    }
+}
+
+/// A number as messages show it: without rows of zeros.
+fn short(value: f32) -> String {
+    if value == 0.0 || (1.0e-4..1.0e6).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
     }
 }
 

@@ -46,9 +46,14 @@ impl Complaint {
     }
 }
 
+/// What a block is called in messages: its serde name, which RON wants to be an identifier.
+fn plain_name(name: &str) -> String {
+    name.replace('_', " ")
+}
+
 /// The name of a block in a message.
 fn within(outer: Option<&str>) -> String {
-    outer.map_or_else(String::new, |outer| format!(" in this {outer}"))
+    outer.map_or_else(String::new, |outer| format!(" in this {}", plain_name(outer)))
 }
 
 /// Rewords RON's complaint; `found` is the token where it stands, `before` the text that precedes it.
@@ -57,7 +62,8 @@ pub(super) fn complain_ron(code: ron::Error, found: &str, before: &str) -> Compl
     match code {
         E::NoSuchStructField { expected, found, .. } => Complaint::unknown("field", &found, expected.iter().copied()),
         E::NoSuchEnumVariant { expected, found, outer } => {
-            Complaint::unknown(outer.as_deref().unwrap_or("name"), &found, expected.iter().copied())
+            let what = plain_name(outer.as_deref().unwrap_or("name"));
+            Complaint::unknown(&what, &found, expected.iter().copied())
         }
         E::MissingStructField { field, outer } => {
             Complaint::missing(field, outer.as_deref(), &format!("`{field}: ...`"))
@@ -69,9 +75,11 @@ pub(super) fn complain_ron(code: ron::Error, found: &str, before: &str) -> Compl
         }
         E::ExpectedDifferentStructName { expected, .. } => Complaint::new(
             expected_found("`(`", &quoted(found)),
-            format!("a {expected} begins with a bracket alone"),
+            format!("a {} begins with a bracket alone", plain_name(expected)),
         ),
-        E::IntegerOutOfBounds => Complaint::new(expected_found("u32", &quoted(found)), ""),
+        E::IntegerOutOfBounds | E::InvalidIntegerDigit { .. } | E::UnderscoreAtBeginning => {
+            Complaint::new(expected_found("u32", &quoted(found)), "")
+        }
         E::ExceededRecursionLimit => Complaint::new("brackets are nested too deeply", ""),
         E::TrailingCharacters => Complaint::new(expected_found("the end of the file", &quoted(found)), ""),
         E::Eof => Complaint::new("the file ends too early", "is a bracket or a quote not closed?"),
@@ -79,6 +87,10 @@ pub(super) fn complain_ron(code: ron::Error, found: &str, before: &str) -> Compl
         E::ExpectedComma if found.parse::<f64>().is_ok() && !before.ends_with([')', ']', '}', '"']) => {
             Complaint::new(expected_found("u32", &quoted(found)), "")
         }
+        E::ExpectedComma if before.ends_with('"') => Complaint::new(
+            expected_found("`,`", &quoted(found)),
+            "is a quotation mark missing above?",
+        ),
         E::ExpectedStructLike | E::ExpectedNamedStructLike(_) => expected_bracket(found, before),
         E::ExpectedStructLikeEnd => Complaint::new(
             expected_found("`)`", &quoted(found)),
@@ -109,11 +121,9 @@ fn expected_bracket(found: &str, before: &str) -> Complaint {
     } else if found.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
         "one number is not enough: write `(x, y, z)`".to_owned()
     } else {
-        let name = name(before);
-        if name.is_empty() {
-            String::new()
-        } else {
-            format!("write `{name}(...)`, or `{name}()` for the defaults")
+        match name(before) {
+            name if name.is_empty() => "is a bracket missing above?".to_owned(),
+            name => format!("write `{name}(...)`, or `{name}()` for the defaults"),
         }
     };
     Complaint::new(expected_found("`(`", &quoted(found)), help)
@@ -153,11 +163,16 @@ pub(super) fn complain_json(error: &serde_json::Error, found: &str) -> Complaint
             format!("unexpected {}", quoted(found)),
             "is there a value or a bracket too many?",
         )
+    } else if text == "key must be a string" || text == "trailing comma" {
+        let help = "JSON has no comments, and no comma before a closing bracket; RON has both";
+        Complaint::new(expected_found("a string", &quoted(found)), help)
     } else if text == "number out of range" {
         Complaint::new(
             expected_found("f32", &quoted(found)),
             "the largest number is about 3.4e38",
         )
+    } else if text == "invalid number" {
+        Complaint::new(expected_found("f32", &quoted(found)), "")
     } else if let Some(expected) = text.strip_prefix("expected ") {
         Complaint::new(expected_found(expected, &quoted(found)), "")
     } else {
@@ -175,7 +190,7 @@ fn expected_found(expected: &str, found: &str) -> String {
         "comma" => "`,`".to_owned(),
         "colon" => "`:`".to_owned(),
         "identifier" => "a name followed by `(`".to_owned(),
-        "value" => "a value".to_owned(),
+        "value" | "ident" => "a value".to_owned(),
         "end of string" => "`\"` at the end of the string".to_owned(),
         _ => match expected.strip_prefix("an array of length ") {
             Some(length) => format!("{length} values"),

@@ -47,8 +47,8 @@ impl Finding {
 
     /// Points at `span` of `text`, shortened to its first line; `label` is what the source view says there.
     fn at(mut self, text: &Arc<str>, span: Range<usize>, label: String) -> Self {
-        let start = floor_char_boundary(text, span.start);
-        let end = floor_char_boundary(text, span.end.max(start));
+        let start = text.floor_char_boundary(span.start);
+        let end = text.floor_char_boundary(span.end.max(start));
         let line_end = text[start..].find('\n').map_or(text.len(), |offset| start + offset);
         let (line, column) = line_and_column(text, start);
         self.place = Some(Place {
@@ -71,15 +71,6 @@ impl Finding {
         }
         plain
     }
-}
-
-/// The largest character boundary of `text` that is not above `at`.
-fn floor_char_boundary(text: &str, at: usize) -> usize {
-    let mut at = at.min(text.len());
-    while !text.is_char_boundary(at) {
-        at -= 1;
-    }
-    at
 }
 
 /// Line and column (in characters), both from 1, of a byte offset on a character boundary.
@@ -187,8 +178,10 @@ macro_rules! finding {
 finding!(SceneError, miette::Severity::Error);
 finding!(SceneWarning, miette::Severity::Warning);
 
-/// Advice for a name that is none of `known`: the nearest of them, and all of them where they are few.
-pub(super) fn nearest_name<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+/// Advice for the name `found`, which is none of `known`: the nearest of them, and all of them where they are few. Empty
+/// where there is nothing to say.
+#[must_use]
+pub fn nearest_name<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.into_iter().collect();
     let distance = |name: &str| strsim::damerau_levenshtein(&found.to_lowercase(), &name.to_lowercase());
     let nearest = (found.len() <= 64)

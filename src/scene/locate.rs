@@ -270,3 +270,81 @@ fn decode(key: &str) -> Cow<'_, str> {
         Cow::Borrowed(key)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found<'a>(text: &'a str, format: Format, steps: &[Step]) -> &'a str {
+        &text[locate(text, format, steps)]
+    }
+
+    const RON: &str = r##"#![enable(implicit_some)]
+    ( /* a: 1, /* nested */ */ a: "not, (b:", list: [ // c: [
+        (b: 'x'), Two(b: r#"raw " ("#, c: Scale((1, 2, 3))),
+    ], map: { "k\"ey": 5, "other": Six(d: 7) })"##;
+
+    #[test]
+    fn values_are_found_in_ron() {
+        let at = |steps: &[Step]| found(RON, Format::Ron, steps);
+        assert_eq!(at(&[Step::Key("a")]), "\"not, (b:\"");
+        assert_eq!(at(&[Step::Key("list"), Step::Index(0), Step::Key("b")]), "'x'");
+        let two = [Step::Key("list"), Step::Index(1), Step::Variant("Two")];
+        assert_eq!(at(&two), "Two(b: r#\"raw \" (\"#, c: Scale((1, 2, 3)))");
+        assert_eq!(at(&[&two[..], &[Step::Key("b")]].concat()), "r#\"raw \" (\"#");
+        let scale = [&two[..], &[Step::Key("c"), Step::Variant("Scale"), Step::Content]].concat();
+        assert_eq!(at(&scale), "(1, 2, 3)");
+        assert_eq!(at(&[&scale[..], &[Step::Index(2)]].concat()), "3");
+        assert_eq!(at(&[Step::Key("map"), Step::Key("k\"ey")]), "5");
+        assert_eq!(at(&[Step::Key("map"), Step::Name("other")]), "\"other\"");
+    }
+
+    #[test]
+    fn values_are_found_in_json() {
+        let text = r#"{"a": [1, {"Scale": [2, 3]}], "b": {"Two": {"c": "}"}}}"#;
+        let at = |steps: &[Step]| found(text, Format::Json, steps);
+        assert_eq!(at(&[Step::Key("a"), Step::Index(0)]), "1");
+        let scale = [
+            Step::Key("a"),
+            Step::Index(1),
+            Step::Variant("Scale"),
+            Step::Content,
+            Step::Index(1),
+        ];
+        assert_eq!(at(&scale), "3");
+        assert_eq!(at(&[Step::Key("b"), Step::Variant("Two"), Step::Key("c")]), "\"}\"");
+    }
+
+    #[test]
+    fn the_nearest_enclosing_value_stands_for_one_that_is_not_there() {
+        let at = |steps: &[Step]| found(RON, Format::Ron, steps);
+        assert_eq!(
+            at(&[Step::Key("list"), Step::Index(0), Step::Key("none"), Step::Index(4)]),
+            "(b: 'x')"
+        );
+        assert_eq!(at(&[Step::Key("map"), Step::Key("other"), Step::Key("e")]), "Six(d: 7)");
+        assert!(at(&[Step::Key("none")]).starts_with("( /* a"));
+        assert_eq!(found("", Format::Ron, &[Step::Key("none")]), "");
+        assert_eq!(found("(a: (b: 1", Format::Ron, &[Step::Key("a"), Step::Key("c")]), "(");
+    }
+
+    #[test]
+    fn the_way_to_a_byte_is_named() {
+        let way = |needle: &str| context(RON, RON.find(needle).unwrap_or(0)).path;
+        assert_eq!(way("'x'"), "list[0].b");
+        assert_eq!(way("7)"), "map.other.d");
+        assert_eq!(way("2, 3"), "list[1].c");
+    }
+
+    #[test]
+    fn ways_are_described_as_people_write_them() {
+        let steps = [
+            Step::Key("materials"),
+            Step::Key("a b"),
+            Step::Variant("Diffuse"),
+            Step::Key("eta"),
+            Step::Index(1),
+        ];
+        assert_eq!(describe(&steps), "materials[\"a b\"].eta[1]");
+    }
+}

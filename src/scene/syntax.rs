@@ -21,7 +21,12 @@ pub(super) fn parse_json(name: &str, text: &Arc<str>) -> Result<SceneDescription
     serde_json::from_str(text).map_err(|error| {
         // The parser counts columns in bytes, and stands at the last byte of what it complains of.
         let line_start = offset_of(text, error.line(), 1);
-        let at = (line_start + error.column().saturating_sub(1)).min(text.len());
+        let at = text.floor_char_boundary(line_start + error.column().saturating_sub(1));
+        // Comments are no tokens, so they would be passed over.
+        if text[at..].starts_with("//") || text[at..].starts_with("/*") {
+            let help = "leave it out, or write the scene in RON, which has comments";
+            return SceneError::at(name, text, at..at + 2, "here", "JSON has no comments", help);
+        }
         place(name, text, at, |found, _| complain_json(&error, found))
     })
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// A camera. World space, right-handed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename = "camera")]
+#[serde(deny_unknown_fields, rename = "kind_of_camera")]
 pub enum CameraDescription {
     /// A pinhole camera: everything is in focus.
     Perspective {
@@ -26,7 +26,7 @@ pub enum CameraDescription {
 
 /// The side of the film that an angle of view spans.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename = "field of view axis")]
+#[serde(rename = "field_of_view_axis")]
 pub enum FovAxis {
     /// From the left edge to the right.
     Horizontal,

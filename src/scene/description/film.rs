@@ -23,7 +23,7 @@ pub struct FilmDescription {
 /// A separable reconstruction filter, zero outside a square. Radii are in pixels, in [0.5, 16]: half the side of the
 /// square; a smaller one would lose light between pixels.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename = "filter")]
+#[serde(deny_unknown_fields, rename = "kind_of_filter")]
 pub enum FilterDescription {
     /// Constant.
     Box {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// `two_sided`: true shades both sides alike; false makes the back (the side away from the geometric normal) black.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename = "material")]
+#[serde(deny_unknown_fields, rename = "kind_of_material")]
 pub enum MaterialDescription {
     /// Lambertian reflection.
     Diffuse {

@@ -1,6 +1,6 @@
 //! What a scene file says, as plain data: one serde type per block of the format. The same types read RON and JSON.
 //!
-//! Nothing here is checked beyond its shape (names, types, counts): [`validate`](crate::scene::validate) holds the
+//! Nothing here is checked beyond its shape (names, types, counts): [`validate`](crate::scene::validate()) holds the
 //! values against their ranges, so that an error can point at the place in the file.
 
 mod camera;

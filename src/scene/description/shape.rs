@@ -27,7 +27,7 @@ pub struct ShapeDescription {
 
 /// Geometry in the shape's own space. Lengths in scene units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename = "kind of shape")]
+#[serde(deny_unknown_fields, rename = "kind_of_shape")]
 pub enum ShapeKind {
     /// A parallelogram; its geometric normal is `edge_u` x `edge_v`.
     Quad {
@@ -65,7 +65,7 @@ pub enum ShapeKind {
 
 /// One step of a transform.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename = "transform step")]
+#[serde(deny_unknown_fields, rename = "transform_step")]
 pub enum TransformStep {
     /// Moves by a vector, in scene units.
     Translate([f32; 3]),

@@ -28,7 +28,7 @@ impl<'de, V: Deserialize<'de>> Visitor<'de> for UniqueMap<V> {
         while let Some(name) = entries.next_key::<String>()? {
             // Before the value is read, so that the error stands at the second name.
             if map.contains_key(&name) {
-                return Err(A::Error::custom(format_args!("duplicate name `{name}`")));
+                return Err(A::Error::custom(format_args!("two materials are named `{name}`")));
             }
             let value = entries.next_value()?;
             map.insert(name, value);

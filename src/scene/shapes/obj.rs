@@ -168,7 +168,7 @@ impl Builder<'_> {
         }
         let kept: Vec<usize> = (0..all).filter(|&triangle| mesh.has_area(triangle)).collect();
         if kept.is_empty() {
-            let message = format!("{shown}: none of its {all} triangles has an area");
+            let message = format!("{shown}: none of its triangles has an area ({all} read)");
             return Err(at.error(message, "is it scaled down too far?"));
         }
         if kept.len() < all {
@@ -177,7 +177,7 @@ impl Builder<'_> {
             self.emission = kept.iter().map(|&triangle| self.emission[triangle]).collect();
             let dropped = all - kept.len();
             warn(
-                format!("{dropped} of {all} triangles have no area and are left out"),
+                format!("triangles without an area are left out: {dropped} of {all}"),
                 "",
             );
         }
@@ -186,7 +186,7 @@ impl Builder<'_> {
         if repairs.missing > 0 {
             warn(
                 format!(
-                    "{} of {corners} corners have no normal and are shaded flat",
+                    "corners without a normal are shaded flat: {} of {corners}",
                     repairs.missing
                 ),
                 "",
@@ -194,8 +194,8 @@ impl Builder<'_> {
         }
         if repairs.opposed > 0 {
             let message = format!(
-                "at {} of {corners} corners the normal points away from the side that the winding says is the \
-                 front; they are shaded flat",
+                "corners whose normal points away from the front, as the winding has it, are shaded flat: {} of \
+                 {corners}",
                 repairs.opposed
             );
             warn(message, "turn the faces or the normals over, or set `smooth: false`");
@@ -207,4 +207,161 @@ impl Builder<'_> {
 /// The elements of a slice, three by three.
 fn triples<T: Copy>(flat: &[T]) -> impl Iterator<Item = [T; 3]> {
     flat.chunks_exact(3).map(|chunk| [chunk[0], chunk[1], chunk[2]])
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::color::Rgb;
+    use crate::scene::testing::{areas, mesh_of, normals, scene_of, volume};
+    use crate::scene::{Emission, Flattened, Format, MaterialDescription, flatten, parse_scene};
+    use glam::{Vec2, Vec3};
+    use std::fs;
+    use std::path::Path;
+
+    /// A tetrahedron with outward faces.
+    const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+    /// The scene of one mesh, with the scene's own material unless the mesh brings a library.
+    fn scene(files: &[(&str, &str)], rest: &str, transform: &str) -> Flattened {
+        let folder = tempfile::tempdir().expect("a folder");
+        for (name, content) in files {
+            fs::write(folder.path().join(name), content).expect("a file");
+        }
+        let text = scene_of(&format!("Obj(file: \"{}\"{rest})", files[0].0), transform);
+        let text = if files.len() > 1 {
+            text.replace("material: \"white\",", "")
+        } else {
+            text
+        };
+        read(&text, folder.path())
+    }
+
+    fn read(text: &str, folder: &Path) -> Flattened {
+        match parse_scene("test.ron", text, Format::Ron, folder).and_then(|source| flatten(&source)) {
+            Ok(flattened) => flattened,
+            Err(error) => panic!("{}", error.plain()),
+        }
+    }
+
+    fn said(flattened: &Flattened) -> String {
+        flattened
+            .warnings
+            .iter()
+            .map(|warning| format!("{warning}\n"))
+            .collect()
+    }
+
+    #[test]
+    fn a_mesh_faces_outward_also_when_mirrored() {
+        for (transform, expected) in [
+            ("", 1.0 / 6.0),
+            ("Scale((-2, 1, 1))", 2.0 / 6.0),
+            ("Scale((-1, -1, -1))", 1.0 / 6.0),
+        ] {
+            let mesh = mesh_of(&scene(&[("t.obj", TETRAHEDRON)], "", transform).instances[0]);
+            assert!((volume(&mesh) - expected).abs() < 1.0e-6, "{transform}");
+            assert!(mesh.normals.is_empty() && mesh.uvs.is_empty());
+        }
+    }
+
+    #[test]
+    fn polygons_negative_indices_and_continued_lines_are_read() {
+        let text = "# caf\u{e9}\r\nv 0 0 0\r\nv 2 0 0\r\nv 3 1 0 1.0\r\nv 1 2 0 0.5 0.5 0.5\r\nv 0 1 0\r\nf -5 -4 \\\r\n -3 4 5 # a pentagon\r\n";
+        let mesh = mesh_of(&scene(&[("p.obj", text)], "", "").instances[0]);
+        assert_eq!(mesh.triangles.len(), 3);
+        assert_eq!(areas(&mesh).iter().sum::<f32>(), 4.0);
+        assert_eq!(normals(&mesh), [Vec3::Z; 3]);
+    }
+
+    #[test]
+    fn normals_follow_the_inverse_transpose() {
+        let text = "v 0 0 0\nv 1 0 -1\nv 0 1 0\nvn 2 0 2\nf 1//1 2//1 3//1\n";
+        let flattened = scene(&[("n.obj", text)], "", "Scale((2, 1, 1))");
+        let mesh = mesh_of(&flattened.instances[0]);
+        let expected = Vec3::new(0.5, 0.0, 1.0).normalize();
+        for normal in &mesh.normals {
+            assert!(normal.distance(expected) < 1.0e-6 && normal.is_normalized(), "{normal}");
+        }
+        assert!(normals(&mesh)[0].distance(expected) < 1.0e-6);
+        let flat = mesh_of(&scene(&[("n.obj", text)], ", smooth: false", "").instances[0]);
+        assert!(flat.normals.is_empty());
+    }
+
+    #[test]
+    fn a_corner_without_a_usable_normal_gets_that_of_its_face() {
+        let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 2\nvn 0 0 0\nvn 0 0 -1\nf 1//1 2//2 3\nf 1//3 2//1 3//1\n";
+        let flattened = scene(&[("n.obj", text)], "", "");
+        let mesh = mesh_of(&flattened.instances[0]);
+        let shading = |triangle: usize, corner: usize| mesh.normals[mesh.triangles[triangle][corner] as usize];
+        let given = Vec3::new(1.0, 0.0, 2.0).normalize();
+        assert_eq!([shading(0, 0), shading(0, 1), shading(0, 2)], [given, Vec3::Z, Vec3::Z]);
+        assert_eq!([shading(1, 0), shading(1, 1), shading(1, 2)], [Vec3::Z, given, given]);
+        assert!(
+            said(&flattened).contains("corners without a normal are shaded flat: 2 of 6"),
+            "{}",
+            said(&flattened)
+        );
+    }
+
+    #[test]
+    fn texture_coordinates_stay_with_their_corners() {
+        let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0.5\nvt 1 1\nf 1/1 2/2 3\n";
+        let mesh = mesh_of(&scene(&[("u.obj", text)], "", "").instances[0]);
+        let uv = mesh.triangles[0].map(|vertex| mesh.uvs[vertex as usize]);
+        assert_eq!(uv, [Vec2::new(0.25, 0.5), Vec2::ONE, Vec2::ZERO]);
+    }
+
+    #[test]
+    fn materials_of_the_file_are_translated() {
+        let library = "newmtl wall\nKd 0.5\nnewmtl lamp\nKd 0 0 0\nKe 3 2 1\nillum 2\nnewmtl glass\nd 0.2\nNi 1.33\n\
+                       newmtl mirror\nillum 3\nKs 0.9 0.8 0.7\nnewmtl unused\nKd 1 1 1\n";
+        let face = "f 1 2 3\n";
+        let text = format!(
+            "mtllib my library.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl lamp\n{face}f 1 2 2\nusemtl wall\n{face}o x\n{face}\
+             usemtl glass\n{face}usemtl mirror\n{face}usemtl lamp\n{face}"
+        );
+        let flattened = scene(&[("m.obj", &text), ("my library.mtl", library)], "", "");
+        let mesh = mesh_of(&flattened.instances[0]);
+        let names: Vec<&str> = flattened.materials.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(
+            names,
+            ["white", "m.obj:lamp", "m.obj:wall", "m.obj:glass", "m.obj:mirror"]
+        );
+        assert_eq!(mesh.materials, [1, 2, 2, 3, 4, 1]);
+        let lamp = Rgb::new(3.0, 2.0, 1.0);
+        let black = Rgb::BLACK;
+        let emission = &flattened.instances[0].emission;
+        assert_eq!(
+            *emission,
+            Emission::PerTriangle(vec![lamp, black, black, black, black, lamp])
+        );
+        assert_eq!((emission.of(0), emission.of(1)), (lamp, black));
+        let described = |index: usize| &flattened.materials[index].1;
+        let grey = Rgb::splat(0.5);
+        assert_eq!(
+            *described(2),
+            MaterialDescription::Diffuse {
+                reflectance: grey,
+                two_sided: true
+            }
+        );
+        assert!(matches!(described(3), MaterialDescription::Dielectric { interior_ior, .. } if *interior_ior == 1.33));
+        let mirror = Rgb::new(0.9, 0.8, 0.7);
+        assert!(matches!(described(4), MaterialDescription::Conductor { reflectance, .. } if *reflectance == mirror));
+    }
+
+    #[test]
+    fn the_same_file_twice_brings_its_materials_once_and_the_shapes_emission_wins() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mesh = "mtllib l.mtl\nusemtl lamp\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+        fs::write(folder.path().join("m.obj"), mesh).expect("a file");
+        fs::write(folder.path().join("l.mtl"), "newmtl lamp\nKe 1 1 1\n").expect("a file");
+        let shape = "(shape: Obj(file: \"m.obj\")), (shape: Obj(file: \"m.obj\"), emission: (5, 5, 5))";
+        let text = scene_of("Sphere(radius: 1)", "").replace("shapes: [", &format!("shapes: [{shape}, "));
+        let flattened = read(&text, folder.path());
+        assert_eq!(flattened.materials.len(), 2);
+        assert_eq!(flattened.instances[0].emission, Emission::Uniform(Rgb::ONE));
+        assert_eq!(flattened.instances[1].emission, Emission::Uniform(Rgb::splat(5.0)));
+        assert_eq!(flattened.instances[2].emission, Emission::None);
+    }
 }

@@ -8,7 +8,7 @@
 use crate::scene::error::nearest_name;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{BufRead, Read};
+use std::io::{BufRead, Read, Write};
 use std::path::Path;
 
 /// The longest line, in bytes; a face of a million corners fits.
@@ -180,8 +180,8 @@ impl<'a, R: BufRead> ObjLines<'a, R> {
             let [vertex, uv, normal] = self.corner(word)?;
             let normal = if self.smooth { normal } else { 0 };
             // One more for the vectors that stand for "none".
-            self.line
-                .extend_from_slice(format!(" {vertex}/{}/{}", uv + 1, normal + 1).as_bytes());
+            // Writing to memory cannot fail.
+            let _ = write!(self.line, " {vertex}/{}/{}", uv + 1, normal + 1);
             corners += 1;
         }
         self.line.push(b'\n');
@@ -209,10 +209,10 @@ impl<'a, R: BufRead> ObjLines<'a, R> {
         let shown = || word.chars().take(40).collect::<String>();
         let help = || "a corner is written `v`, `v/vt`, `v//vn` or `v/vt/vn`".to_owned();
         let mut indices = [0; 3];
+        if word.split('/').count() > 3 {
+            return Err((format!("a face's corner `{}` has too many indices", shown()), help()));
+        }
         for (kind, part) in word.split('/').enumerate() {
-            if kind > 2 {
-                return Err((format!("a face's corner `{}` has too many indices", shown()), help()));
-            }
             if part.is_empty() && kind > 0 {
                 continue;
             }

@@ -31,7 +31,10 @@ pub(in crate::scene) fn geometry(
         return Err(too_far(at));
     }
     if radius < MIN_RADIUS {
-        let message = format!("this sphere's radius in world space is {radius:e}, too small to compute with");
+        let message = format!(
+            "this sphere's radius in world space is {:e}, too small to compute with",
+            radius as f32
+        );
         return Err(at.error(message, "choose a smaller unit of length"));
     }
     Ok(Geometry::Sphere {
