@@ -52,7 +52,8 @@ class Scene:
                 self.triangles += [(t, index) for t in load_obj(path.parent / f["file"])]
             else:
                 c, u, v = (np.array(f[name], float) for name in ("corner", "edge_u", "edge_v"))
-                self.triangles += [(np.array(t), index) for t in ([c, c + u, c + u + v], [c, c + u + v, c + v])]
+                halves = [c, c + u, c + u + v], [c, c + u + v, c + v]
+                self.triangles += [(np.array(half), index) for half in halves]
             self.materials.append(description["materials"][entry["material"]])
             self.emission.append(entry.get("emission", [0.0, 0.0, 0.0]))
         self.emission = np.array(self.emission, float)
@@ -124,7 +125,8 @@ def scatter(material, d, n, rng):
     if material.name == "Conductor":
         return mirrored, conductor_fresnel(cos, np.array(f["eta"], float), np.array(f["k"], float))
     if material.name == "Dielectric":
-        ratio = np.where(outside, f["exterior_ior"] / f["interior_ior"], f["interior_ior"] / f["exterior_ior"])
+        relative = f["interior_ior"] / f["exterior_ior"]
+        ratio = np.where(outside, 1 / relative, relative)
         sin2_t = ratio**2 * (1 - cos**2)
         cos_t = np.sqrt(np.maximum(1 - sin2_t, 0.0))
         s = (ratio * cos - cos_t) / (ratio * cos + cos_t)
