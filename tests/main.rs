@@ -1,4 +1,5 @@
 //! One integration-test binary; each concern is a module beside this file.
 
 mod broken_scenes;
+mod rendering;
 mod scene_fuzz;

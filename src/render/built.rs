@@ -40,6 +40,8 @@ pub struct Built {
     pub step: Vec<String>,
     /// Full names of the systems of the trace loop, in the order in which they run.
     pub trace_loop: Vec<String>,
+    /// Full type names of the world's resources, sorted.
+    pub resources: Vec<String>,
     /// Components on rows that are in none of the tables: must be empty.
     pub strays: Vec<String>,
 }
@@ -60,6 +62,7 @@ impl Built {
             tables: Vec::new(),
             step: system_names(world, Step),
             trace_loop: system_names(world, TraceLoop),
+            resources: Vec::new(),
             strays: Vec::new(),
         };
         for archetype in world.archetypes().iter().filter(|archetype| !archetype.is_empty()) {
@@ -80,7 +83,10 @@ impl Built {
                     });
                 }
                 // bevy keeps each resource on an entity of its own; those are no rows.
-                None if components.len() <= 2 && is_resource(&columns) => {}
+                None if columns.iter().any(is_resource_marker) => {
+                    let names = columns.into_iter().filter(|column| !is_resource_marker(column));
+                    built.resources.extend(names.map(|column| column.type_name));
+                }
                 None => built.strays.extend(columns.into_iter().map(|column| column.type_name)),
             }
         }
@@ -163,8 +169,8 @@ fn column(world: &World, id: ComponentId) -> Option<BuiltColumn> {
     })
 }
 
-fn is_resource(columns: &[BuiltColumn]) -> bool {
-    columns.iter().any(|column| column.type_name.ends_with("IsResource"))
+fn is_resource_marker(column: &BuiltColumn) -> bool {
+    column.type_name.ends_with("IsResource")
 }
 
 fn system_names(world: &World, label: impl ScheduleLabel) -> Vec<String> {

@@ -1,0 +1,139 @@
+//! The tables and schedules of a tile are exactly those of the plan.
+
+use super::{inline, shipped};
+use chainlight::film::Film;
+use chainlight::plan::{Effect, Plan, Technique};
+use chainlight::render::{Built, TileWorld, short};
+use chainlight::scene::Scene;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+fn built(scene: &Arc<Scene>, technique: Technique) -> (Plan, Built) {
+    let plan = Plan::new(scene, technique, None);
+    let film = Arc::new(Film::new(1, 1, 1.0).expect("one pixel"));
+    let built = Built::read(&TileWorld::new(&plan, scene, &film, 0));
+    (plan, built)
+}
+
+fn systems(built: &Built) -> BTreeSet<String> {
+    built.step.iter().chain(&built.trace_loop).map(|name| short(name).to_owned()).collect()
+}
+
+fn columns(built: &Built) -> BTreeSet<String> {
+    built.tables.iter().flat_map(|table| &table.columns).map(|column| short(&column.type_name).to_owned()).collect()
+}
+
+fn box_with(material: &str, emission: &str, max_depth: u32) -> Arc<Scene> {
+    inline(
+        &format!(
+            r#"(version: 1, settings: (max_depth: {max_depth}),
+                camera: Perspective(origin: (0, 0, 5), target: (0, 0, 0), fov: 40),
+                film: (width: 8, height: 8),
+                materials: {{ "m": {material} }},
+                shapes: [(shape: Box(min: (-1, -1, -1), max: (1, 1, 1)), material: "m"{emission})])"#
+        ),
+        8,
+    )
+}
+
+#[test]
+fn what_is_built_is_what_was_planned() {
+    for technique in Technique::ALL {
+        for scene in ["cornell-box.ron", "cornell-glass.ron"] {
+            let (plan, built) = built(&shipped(scene, 8), technique);
+            assert_eq!(built.matches(&plan), Ok(()), "{scene} {technique}");
+        }
+        for emission in ["", ", emission: (1, 1, 1)"] {
+            for max_depth in [1, 2, 5, 6, 64] {
+                let scene = box_with("Diffuse(reflectance: (1, 1, 1))", emission, max_depth);
+                let (plan, built) = built(&scene, technique);
+                assert_eq!(built.matches(&plan), Ok(()), "{emission} {max_depth} {technique}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_world_that_differs_from_its_plan_is_noticed() {
+    let (mut plan, built) = built(&shipped("cornell-glass.ron", 8), Technique::Pt);
+    plan.tables[1].columns.pop();
+    assert!(built.matches(&plan).is_err());
+    let (mut plan, built) = self::built(&shipped("cornell-glass.ron", 8), Technique::Pt);
+    plan.systems.swap(3, 4);
+    assert!(built.matches(&plan).is_err());
+}
+
+#[test]
+fn no_column_owns_heap_memory_and_no_resource_is_a_table() {
+    let (_, built) = built(&shipped("cornell-glass.ron", 8), Technique::Pt);
+    for column in built.tables.iter().flat_map(|table| &table.columns) {
+        assert!(!column.needs_drop, "{} owns memory", column.type_name);
+    }
+    let resources: Vec<&str> = built
+        .resources
+        .iter()
+        .filter(|name| name.starts_with("chainlight"))
+        .map(|name| short(name))
+        .collect();
+    // The scene and the film are shared by all tiles; the profile has one entry per system; the rest is `Copy`.
+    assert_eq!(resources, ["FilmRef", "Queues", "Counters", "TilePlace", "SceneRef", "Profile"].as_slice().to_sorted());
+    fn is_plain<T: Copy>() {}
+    is_plain::<chainlight::systems::tile::TilePlace>();
+    is_plain::<chainlight::systems::tile::Queues>();
+    is_plain::<chainlight::systems::tile::Counters>();
+}
+
+trait ToSorted {
+    fn to_sorted(&self) -> Vec<&str>;
+}
+
+impl ToSorted for [&str] {
+    fn to_sorted(&self) -> Vec<&str> {
+        let order = |name: &&str| if *name == "Profile" { (0, *name) } else { (1, *name) };
+        let mut names = self.to_vec();
+        names.sort_by_key(order);
+        names
+    }
+}
+
+#[test]
+fn removing_glass_removes_its_system_and_its_columns() {
+    let emission = ", emission: (1, 1, 1)";
+    let (_, with) = built(&shipped("cornell-glass.ron", 8), Technique::Pt);
+    let (plan, without) = built(&shipped("cornell-box.ron", 8), Technique::Pt);
+    assert!(!plan.has(Effect::Refraction));
+    let gone = |a: BTreeSet<String>, b: BTreeSet<String>| a.difference(&b).cloned().collect::<Vec<_>>();
+    assert_eq!(gone(systems(&with), systems(&without)), ["scatter_conductor", "scatter_dielectric"]);
+    assert_eq!(gone(columns(&with), columns(&without)), ["ConductorList", "DielectricList", "RadianceScale"]);
+    assert!(gone(systems(&without), systems(&with)).is_empty());
+
+    let mirror = box_with("Conductor(eta: (0, 0, 0), k: (1, 1, 1))", emission, 8);
+    let (_, mirror) = built(&mirror, Technique::Pt);
+    for absent in ["connect_lights", "transmit_segments", "scatter_diffuse", "scatter_dielectric"] {
+        assert!(!systems(&mirror).contains(absent), "{absent}");
+    }
+    for absent in ["VertexConnection", "SegmentTarget", "SegmentTransmittance", "ConnectList", "DiffuseList"] {
+        assert!(!columns(&mirror).contains(absent), "{absent}");
+    }
+}
+
+#[test]
+fn a_scene_without_light_traces_nothing() {
+    let scene = box_with("Diffuse(reflectance: (1, 1, 1))", "", 8);
+    let (plan, built) = built(&scene, Technique::Pt);
+    assert!(Effect::ALL.iter().all(|effect| !plan.has(*effect)));
+    assert_eq!(systems(&built), BTreeSet::from(["accept_always", "assign_pixels", "splat_samples"].map(String::from)));
+    assert_eq!(built.tables.len(), 1);
+    let picture = super::picture(&scene, Technique::Pt, 0, 4);
+    assert!(picture.rgb.iter().all(|rgb| rgb.is_black()) && picture.weight.iter().all(|&w| w == 4.0));
+}
+
+#[test]
+fn emitters_seen_directly_need_no_scattering() {
+    let scene = box_with("Diffuse(reflectance: (1, 1, 1))", ", emission: (1, 2, 3)", 1);
+    let (_, built) = built(&scene, Technique::Pt);
+    assert!(!systems(&built).contains("scatter_diffuse") && !columns(&built).contains("VertexMaterial"));
+    let picture = super::picture(&scene, Technique::Pt, 0, 4);
+    assert_eq!(picture.rgb[8 * 4 + 4].to_array(), [1.0, 2.0, 3.0]);
+    assert!(picture.rgb[0].is_black());
+}
