@@ -18,7 +18,7 @@ use std::path::Path;
 const SIZE: usize = 24;
 const BLOCK: usize = 4;
 const RUNS: u64 = 48;
-const STEPS: u64 = 64;
+const STEPS: u64 = 160;
 const ALPHA: f64 = 0.01;
 const POWER: f64 = 0.95;
 
@@ -58,7 +58,7 @@ fn reference(scene: &str) -> Vec<Estimate> {
     let size = image.layer_data.size;
     assert_eq!((size.width(), size.height()), (SIZE, SIZE));
     let channel = |name: String| -> Vec<f64> {
-        let found = image.layer_data.channel_data.list.iter().find(|channel| channel.name == name.as_str());
+        let found = image.layer_data.channel_data.list.iter().find(|channel| channel.name == *name.as_str());
         found.expect("a channel of the reference").sample_data.values_as_f32().map(f64::from).collect()
     };
     let [rgb, variance] = ["", "variance."].map(|layer| ["R", "G", "B"].map(|c| channel(format!("{layer}{c}"))));
