@@ -1,5 +1,6 @@
 //! One integration-test binary; each concern is a module beside this file.
 
 mod broken_scenes;
+mod command_line;
 mod rendering;
 mod scene_fuzz;

@@ -1,13 +1,13 @@
 //! What the commands that take a scene have in common: its arguments, and loading it.
 
 use super::output::note;
-use crate::plan::{Plan, Technique};
+use crate::plan::{Plan, Technique, UnknownTechnique};
 use crate::scene::{
-    FilterDescription, Scene, SceneOverrides, description::MAX_DEPTH_LIMIT, description::MAX_FILM_PIXELS,
+    FilterDescription, Scene, SceneOverrides, Step, description::MAX_DEPTH_LIMIT, description::MAX_FILM_PIXELS,
 };
 use crate::scene::{description::MAX_FILM_SIDE, flatten, read_scene};
 use clap::Args;
-use miette::{Result, WrapErr};
+use miette::Result;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -57,10 +57,14 @@ impl SceneArgs {
         let named = source.description.settings.technique.as_deref();
         let technique = match (self.technique, named) {
             (Some(technique), _) => technique,
-            (None, Some(name)) => name
-                .parse()
-                .map_err(|error: crate::plan::UnknownTechnique| miette::miette!("{error}"))
-                .wrap_err_with(|| format!("{}: settings.technique", self.scene.display()))?,
+            (None, Some(name)) => name.parse().map_err(|error: UnknownTechnique| {
+                let place = [Step::Key("settings"), Step::Key("technique")];
+                source.error(
+                    &place,
+                    error.to_string(),
+                    "--technique on the command line overrides it",
+                )
+            })?,
             (None, None) => Technique::default(),
         };
         let overrides = SceneOverrides {
@@ -85,7 +89,12 @@ impl SceneArgs {
 
 /// Settings that shape the picture, as its metadata names them.
 pub fn settings(loaded: &Loaded) -> String {
-    let Scene { width, height, max_depth, .. } = &*loaded.scene;
+    let Scene {
+        width,
+        height,
+        max_depth,
+        ..
+    } = &*loaded.scene;
     let filter = match loaded.filter {
         FilterDescription::Box { radius } => format!("box({radius})"),
         FilterDescription::Tent { radius } => format!("tent({radius})"),

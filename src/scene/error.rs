@@ -5,15 +5,15 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Why a scene cannot be rendered. `Display` says what is wrong; [`SceneError::plain`] adds the place and the help;
-/// as a [`miette::Diagnostic`] it also shows the source line.
+/// Why a scene cannot be rendered. `Display` says what is wrong, with the file where no source line is there to show
+/// it; [`SceneError::plain`] adds the place and the help; as a [`miette::Diagnostic`] it also shows the source line.
 #[derive(Clone, Debug, thiserror::Error)]
-#[error("{}", .0.message)]
+#[error("{0}")]
 pub struct SceneError(Box<Finding>);
 
 /// Something in a scene that renders, but probably not as meant. Same faces as [`SceneError`].
 #[derive(Clone, Debug, thiserror::Error)]
-#[error("{}", .0.message)]
+#[error("{0}")]
 pub struct SceneWarning(Box<Finding>);
 
 /// What both carry.
@@ -33,6 +33,15 @@ struct Place {
     label: String,
     line: usize,
     column: usize,
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.place.is_none() {
+            write!(f, "{}: ", self.file)?;
+        }
+        f.write_str(&self.message)
+    }
 }
 
 impl Finding {

@@ -21,7 +21,10 @@ const GOLDEN: &str = "85c55e4bb72642a161bb9c3f81498866a891190f1b1f4f965892d4b938
 /// Everything a picture says, as bytes.
 fn picture_bytes(picture: &Picture) -> Vec<u8> {
     let channels = picture.rgb.iter().chain(&picture.error).flat_map(|rgb| rgb.to_array());
-    channels.chain(picture.weight.iter().copied()).flat_map(f32::to_le_bytes).collect()
+    channels
+        .chain(picture.weight.iter().copied())
+        .flat_map(f32::to_le_bytes)
+        .collect()
 }
 
 fn bytes(scene: &Arc<Scene>, seed: u64, threads: usize, tile: Option<u32>) -> Vec<u8> {
@@ -45,8 +48,17 @@ fn golden_hash() {
 fn threads_and_tile_sizes_do_not_show() {
     let scene = shipped("cornell-glass.ron", SIZE);
     let reference = bytes(&scene, 1, 1, None);
-    for (threads, tile) in [(2, None), (1, Some(16)), (2, Some(112)), (2, Some(1024)), (3, Some(4096))] {
-        assert!(bytes(&scene, 1, threads, tile) == reference, "{threads} threads, tile {tile:?}");
+    for (threads, tile) in [
+        (2, None),
+        (1, Some(16)),
+        (2, Some(112)),
+        (2, Some(1024)),
+        (3, Some(4096)),
+    ] {
+        assert!(
+            bytes(&scene, 1, threads, tile) == reference,
+            "{threads} threads, tile {tile:?}"
+        );
     }
 }
 
@@ -58,7 +70,10 @@ fn the_order_of_tiles_does_not_show() {
     assert!(tiles > 20);
     // A stride that shares no factor with the number of tiles visits each once, far from in order.
     let order: Vec<usize> = (0..tiles).map(|i| (i * 7 + 3) % tiles).collect();
-    assert_eq!(order.iter().copied().collect::<std::collections::BTreeSet<_>>().len(), tiles);
+    assert_eq!(
+        order.iter().copied().collect::<std::collections::BTreeSet<_>>().len(),
+        tiles
+    );
     render.burst_in_order(STEPS, &order, &|_| {});
     assert!(picture_bytes(&render.film.develop()) == bytes(&scene, 1, 1, None));
 }
@@ -81,8 +96,14 @@ fn a_time_budget_is_reproduced_by_the_steps_it_recorded() {
         let mut render = start(&scene, Technique::Pt, 5, 2, None);
         let outcome = drive(&mut render, budget, &AtomicBool::new(false), &|_| {});
         assert_eq!(outcome.stop, Stop::Done);
-        let metadata = PictureMetadata { steps: outcome.steps, ..PictureMetadata::default() };
-        (outcome.steps, encode_exr(&render.film.develop(), &metadata).expect("a small picture"))
+        let metadata = PictureMetadata {
+            steps: outcome.steps,
+            ..PictureMetadata::default()
+        };
+        (
+            outcome.steps,
+            encode_exr(&render.film.develop(), &metadata).expect("a small picture"),
+        )
     };
     let (steps, timed) = exr(Budget::Time(Duration::from_millis(300)));
     assert!(steps > 1, "{steps} steps in 0.3 s");
@@ -106,7 +127,9 @@ fn an_interrupted_render_keeps_what_it_has() {
 #[test]
 fn different_seeds_differ() {
     let scene = shipped("cornell-box.ron", SIZE);
-    let pictures: Vec<_> = [0, 1, 1 << 32, u64::MAX].map(|seed| bytes(&scene, seed, 1, None)).into();
+    let pictures: Vec<_> = [0, 1, 1 << 32, u64::MAX]
+        .map(|seed| bytes(&scene, seed, 1, None))
+        .into();
     for (i, a) in pictures.iter().enumerate() {
         assert!(pictures[..i].iter().all(|b| a != b));
     }

@@ -15,7 +15,10 @@ use std::sync::Arc;
 /// A shipped scene, compiled with a film of `size` x `size` pixels and the given filter instead of its own.
 pub fn shipped(name: &str, size: u32) -> Arc<Scene> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name);
-    compile(&read_scene(&path).unwrap_or_else(|error| panic!("{}", error.plain())), size)
+    compile(
+        &read_scene(&path).unwrap_or_else(|error| panic!("{}", error.plain())),
+        size,
+    )
 }
 
 /// A shipped scene with the box filter of the references.
@@ -34,7 +37,10 @@ pub fn inline(text: &str, size: u32) -> Arc<Scene> {
 
 fn compile(source: &SceneSource, size: u32) -> Arc<Scene> {
     let flattened = flatten(source).unwrap_or_else(|error| panic!("{}", error.plain()));
-    let overrides = SceneOverrides { size: Some((size, size)), max_depth: None };
+    let overrides = SceneOverrides {
+        size: Some((size, size)),
+        max_depth: None,
+    };
     Arc::new(Scene::compile(&source.description, &flattened, overrides).expect("a valid filter"))
 }
 

@@ -47,31 +47,62 @@ fn estimates(scene: &str, technique: Technique, first_seed: u64) -> Vec<Estimate
             statistics(|pixel| picture.rgb[pixel].to_array().map(f64::from))
         })
         .collect();
-    (0..runs[0].len()).map(|i| Estimate::of(&runs.iter().map(|run| run[i]).collect::<Vec<_>>())).collect()
+    (0..runs[0].len())
+        .map(|i| Estimate::of(&runs.iter().map(|run| run[i]).collect::<Vec<_>>()))
+        .collect()
 }
 
 /// The reference's statistics: means from its picture, errors from its variances.
 fn reference(scene: &str) -> Vec<Estimate> {
     let name = scene.replace(".ron", ".exr");
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/references").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/references")
+        .join(name);
     let image = read_first_flat_layer_from_file(path).expect("the committed reference");
     let size = image.layer_data.size;
     assert_eq!((size.width(), size.height()), (SIZE, SIZE));
     let channel = |name: String| -> Vec<f64> {
-        let found = image.layer_data.channel_data.list.iter().find(|channel| channel.name == *name.as_str());
-        found.expect("a channel of the reference").sample_data.values_as_f32().map(f64::from).collect()
+        let found = image
+            .layer_data
+            .channel_data
+            .list
+            .iter()
+            .find(|channel| channel.name == *name.as_str());
+        found
+            .expect("a channel of the reference")
+            .sample_data
+            .values_as_f32()
+            .map(f64::from)
+            .collect()
     };
     let [rgb, variance] = ["", "variance."].map(|layer| ["R", "G", "B"].map(|c| channel(format!("{layer}{c}"))));
     let means = statistics(|pixel| [0, 1, 2].map(|c| rgb[c][pixel]));
     let variances = statistics(|pixel| [0, 1, 2].map(|c| variance[c][pixel]));
     let per_channel = means.len() / 3;
-    let samples = |i: usize| (if i % per_channel == 0 { SIZE * SIZE } else { BLOCK * BLOCK }) as f64;
+    let samples = |i: usize| {
+        (if i % per_channel == 0 {
+            SIZE * SIZE
+        } else {
+            BLOCK * BLOCK
+        }) as f64
+    };
     let pairs = means.into_iter().zip(variances).enumerate();
-    pairs.map(|(i, (mean, variance))| Estimate { mean, error: (variance / samples(i)).sqrt() }).collect()
+    pairs
+        .map(|(i, (mean, variance))| Estimate {
+            mean,
+            error: (variance / samples(i)).sqrt(),
+        })
+        .collect()
 }
 
 fn scaled(estimates: &[Estimate], factor: f64) -> Vec<Estimate> {
-    estimates.iter().map(|e| Estimate { mean: e.mean * factor, error: e.error }).collect()
+    estimates
+        .iter()
+        .map(|e| Estimate {
+            mean: e.mean * factor,
+            error: e.error,
+        })
+        .collect()
 }
 
 /// The number of statistics that differ significantly, and the smallest relative bias of the image mean to be seen.
@@ -80,7 +111,9 @@ fn disagreements(a: &[Estimate], b: &[Estimate]) -> (usize, f64) {
     let student = StudentsT::new(0.0, 1.0, (RUNS - 1) as f64).expect("degrees of freedom");
     let threshold = student.inverse_cdf(1.0 - 0.5 * sidak(ALPHA, a.len()));
     let tests = || a.iter().zip(b).map(|(a, b)| a.against_estimate(*b));
-    let failed = tests().filter(|test| test.z.is_nan() || test.z.abs() > threshold).count();
+    let failed = tests()
+        .filter(|test| test.z.is_nan() || test.z.abs() > threshold)
+        .count();
     let means = tests().zip(b).step_by(a.len() / 3);
     let visible = means.map(|(test, b)| test.error * (threshold + upper_quantile(1.0 - POWER)) / b.mean);
     (failed, visible.fold(0.0, f64::max))
@@ -88,11 +121,20 @@ fn disagreements(a: &[Estimate], b: &[Estimate]) -> (usize, f64) {
 
 fn assert_same_light(name: &str, a: &[Estimate], b: &[Estimate]) {
     let (failed, visible) = disagreements(a, b);
-    println!("{name}: smallest visible bias of the image mean {:.2} %", 100.0 * visible);
+    println!(
+        "{name}: smallest visible bias of the image mean {:.2} %",
+        100.0 * visible
+    );
     assert_eq!(failed, 0, "{name}: {failed} of {} statistics differ", a.len());
     assert!(visible < 0.02, "{name}: a bias of 2 % would not be seen");
-    assert!(disagreements(&scaled(a, 1.02), b).0 > 0, "{name}: a planted 2 % was not seen");
-    assert!(disagreements(&scaled(a, 0.98), b).0 > 0, "{name}: a planted -2 % was not seen");
+    assert!(
+        disagreements(&scaled(a, 1.02), b).0 > 0,
+        "{name}: a planted 2 % was not seen"
+    );
+    assert!(
+        disagreements(&scaled(a, 0.98), b).0 > 0,
+        "{name}: a planted -2 % was not seen"
+    );
 }
 
 fn agree(scene: &str) {
@@ -100,7 +142,11 @@ fn agree(scene: &str) {
     let staged = estimates(scene, Technique::Pt, 1_000);
     let depth_first = estimates(scene, Technique::PtReference, 2_000);
     assert_same_light(&format!("{scene}, pt against the reference"), &staged, &reference);
-    assert_same_light(&format!("{scene}, pt-reference against the reference"), &depth_first, &reference);
+    assert_same_light(
+        &format!("{scene}, pt-reference against the reference"),
+        &depth_first,
+        &reference,
+    );
     assert_same_light(&format!("{scene}, pt against pt-reference"), &staged, &depth_first);
 }
 

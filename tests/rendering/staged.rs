@@ -28,7 +28,11 @@ fn both_count_the_same_rays() {
         let mut render = super::start(&scene, technique, 3, 1, None);
         render.burst(8, &|_| {});
         let counters = render.counters();
-        assert_eq!(counters.decisions, 8 * 24 * 24, "every chain decides exactly once a step");
+        assert_eq!(
+            counters.decisions,
+            8 * 24 * 24,
+            "every chain decides exactly once a step"
+        );
         assert_eq!(counters.non_finite, 0);
         (counters.rays, counters.segments)
     });

@@ -16,11 +16,21 @@ fn built(scene: &Arc<Scene>, technique: Technique) -> (Plan, Built) {
 }
 
 fn systems(built: &Built) -> BTreeSet<String> {
-    built.step.iter().chain(&built.trace_loop).map(|name| short(name).to_owned()).collect()
+    built
+        .step
+        .iter()
+        .chain(&built.trace_loop)
+        .map(|name| short(name).to_owned())
+        .collect()
 }
 
 fn columns(built: &Built) -> BTreeSet<String> {
-    built.tables.iter().flat_map(|table| &table.columns).map(|column| short(&column.type_name).to_owned()).collect()
+    built
+        .tables
+        .iter()
+        .flat_map(|table| &table.columns)
+        .map(|column| short(&column.type_name).to_owned())
+        .collect()
 }
 
 fn box_with(material: &str, emission: &str, max_depth: u32) -> Arc<Scene> {
@@ -69,7 +79,11 @@ fn no_column_owns_heap_memory_and_no_resource_is_a_table() {
     for column in built.tables.iter().flat_map(|table| &table.columns) {
         assert!(!column.needs_drop, "{} owns memory", column.type_name);
     }
-    let ours = built.resources.iter().filter(|name| name.starts_with("chainlight")).map(|name| short(name));
+    let ours = built
+        .resources
+        .iter()
+        .filter(|name| name.starts_with("chainlight"))
+        .map(|name| short(name));
     // The scene and the film are shared by all tiles; the profile has one entry per system; the rest is plain.
     let known = ["FilmRef", "SceneRef", "Profile", "Queues", "Counters", "TilePlace"];
     assert_eq!(ours.collect::<BTreeSet<_>>(), BTreeSet::from(known));
@@ -86,16 +100,33 @@ fn removing_glass_removes_its_system_and_its_columns() {
     let (plan, without) = built(&shipped("cornell-box.ron", 8), Technique::Pt);
     assert!(!plan.has(Effect::Refraction));
     let gone = |a: BTreeSet<String>, b: BTreeSet<String>| a.difference(&b).cloned().collect::<Vec<_>>();
-    assert_eq!(gone(systems(&with), systems(&without)), ["scatter_conductor", "scatter_dielectric"]);
-    assert_eq!(gone(columns(&with), columns(&without)), ["ConductorList", "DielectricList", "RadianceScale"]);
+    assert_eq!(
+        gone(systems(&with), systems(&without)),
+        ["scatter_conductor", "scatter_dielectric"]
+    );
+    assert_eq!(
+        gone(columns(&with), columns(&without)),
+        ["ConductorList", "DielectricList", "RadianceScale"]
+    );
     assert!(gone(systems(&without), systems(&with)).is_empty());
 
     let mirror = box_with("Conductor(eta: (0, 0, 0), k: (1, 1, 1))", emission, 8);
     let (_, mirror) = built(&mirror, Technique::Pt);
-    for absent in ["connect_lights", "transmit_segments", "scatter_diffuse", "scatter_dielectric"] {
+    for absent in [
+        "connect_lights",
+        "transmit_segments",
+        "scatter_diffuse",
+        "scatter_dielectric",
+    ] {
         assert!(!systems(&mirror).contains(absent), "{absent}");
     }
-    for absent in ["VertexConnection", "SegmentTarget", "SegmentTransmittance", "ConnectList", "DiffuseList"] {
+    for absent in [
+        "VertexConnection",
+        "SegmentTarget",
+        "SegmentTransmittance",
+        "ConnectList",
+        "DiffuseList",
+    ] {
         assert!(!columns(&mirror).contains(absent), "{absent}");
     }
 }
@@ -105,7 +136,10 @@ fn a_scene_without_light_traces_nothing() {
     let scene = box_with("Diffuse(reflectance: (1, 1, 1))", "", 8);
     let (plan, built) = built(&scene, Technique::Pt);
     assert!(Effect::ALL.iter().all(|effect| !plan.has(*effect)));
-    assert_eq!(systems(&built), BTreeSet::from(["accept_always", "assign_pixels", "splat_samples"].map(String::from)));
+    assert_eq!(
+        systems(&built),
+        BTreeSet::from(["accept_always", "assign_pixels", "splat_samples"].map(String::from))
+    );
     assert_eq!(built.tables.len(), 1);
     let picture = super::picture(&scene, Technique::Pt, 0, 4);
     assert!(picture.rgb.iter().all(|rgb| rgb.is_black()) && picture.weight.iter().all(|&w| w == 4.0));
