@@ -3,6 +3,7 @@
 //!
 //! `cargo bench --bench staged` prints criterion's figures, then a table from rounds that interleave both techniques in
 //! one process; ratios of medians there hold on a noisy machine, absolute times do not.
+#![expect(clippy::print_stdout, reason = "a benchmark prints its table")]
 
 mod support;
 

@@ -1,4 +1,8 @@
 //! One integration-test binary; each concern is a module beside this file.
+#![expect(
+    clippy::print_stdout,
+    reason = "tests print the smallest bias that they could have seen"
+)]
 
 mod broken_scenes;
 mod command_line;

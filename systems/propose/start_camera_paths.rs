@@ -7,10 +7,6 @@ use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut};
 
 /// Starts a path on the lens of every chain, through a film position drawn from the filter about its pixel.
-#[expect(
-    clippy::too_many_arguments,
-    reason = "a system's parameters are the columns that it touches"
-)]
 pub fn start_camera_paths(
     scene: Res<SceneRef>,
     place: Res<TilePlace>,

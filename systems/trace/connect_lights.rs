@@ -8,10 +8,6 @@ use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut};
 
 /// Samples a light for every listed vertex, and writes the segment to it if the light could arrive.
-#[expect(
-    clippy::too_many_arguments,
-    reason = "a system's parameters are the columns that it touches"
-)]
 pub fn connect_lights(
     scene: Res<SceneRef>,
     place: Res<TilePlace>,

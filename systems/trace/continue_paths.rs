@@ -7,10 +7,6 @@ use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut};
 
 /// Plays Russian roulette for every scattered chain, and lists the survivors as active.
-#[expect(
-    clippy::too_many_arguments,
-    reason = "a system's parameters are the columns that it touches"
-)]
 pub fn continue_paths(
     scene: Res<SceneRef>,
     place: Res<TilePlace>,

@@ -10,10 +10,6 @@ use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut};
 
 /// Writes the next ray of every active chain: from its last vertex along its direction. Empties the active list.
-#[expect(
-    clippy::too_many_arguments,
-    reason = "a system's parameters are the columns that it touches"
-)]
 pub fn emit_rays(
     place: Res<TilePlace>,
     mut queues: ResMut<Queues>,

@@ -7,10 +7,6 @@ use crate::table::{Read, Write};
 use bevy_ecs::system::{Res, ResMut};
 
 /// Finds the closest hits of the whole ray queue.
-#[expect(
-    clippy::too_many_arguments,
-    reason = "a system's parameters are the columns that it touches"
-)]
 pub fn intersect_rays(
     scene: Res<SceneRef>,
     queues: Res<Queues>,

@@ -7,10 +7,6 @@ use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut};
 
 /// Traces the segments to sampled lights, and takes what is blocked from the vertices' connections.
-#[expect(
-    clippy::too_many_arguments,
-    reason = "a system's parameters are the columns that it touches"
-)]
 pub fn transmit_segments(
     scene: Res<SceneRef>,
     place: Res<TilePlace>,

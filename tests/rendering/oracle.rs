@@ -80,7 +80,7 @@ fn reference(scene: &str) -> Vec<Estimate> {
     let variances = statistics(|pixel| [0, 1, 2].map(|c| variance[c][pixel]));
     let per_channel = means.len() / 3;
     let samples = |i: usize| {
-        (if i % per_channel == 0 {
+        (if i.is_multiple_of(per_channel) {
             SIZE * SIZE
         } else {
             BLOCK * BLOCK
