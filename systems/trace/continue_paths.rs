@@ -1,6 +1,6 @@
 //! Who goes on.
 
-use super::super::tile::{Queues, SceneRef, TilePlace};
+use super::super::tile::{Queues, TilePlace};
 use crate::path::*;
 use crate::sampling::Purpose;
 use crate::table::{Read, Rows, Write};
@@ -8,7 +8,6 @@ use bevy_ecs::system::{Res, ResMut};
 
 /// Plays Russian roulette for every scattered chain, and lists the survivors as active.
 pub fn continue_paths(
-    scene: Res<SceneRef>,
     place: Res<TilePlace>,
     mut queues: ResMut<Queues>,
     scattered: Read<ScatteredList, ChainTable>,
@@ -19,7 +18,6 @@ pub fn continue_paths(
     mut active: Write<ActiveList, ChainTable>,
     mut ratios: Write<VertexRatio, ProposalTable>,
 ) {
-    debug_assert!(scene.0.max_depth > 1);
     let (scattered, keys, lengths, scales) = (scattered.rows(), keys.rows(), lengths.rows(), scales.rows());
     let (throughputs, active, ratios) = (throughputs.rows(), active.rows(), ratios.rows());
     let mut survivors = 0;

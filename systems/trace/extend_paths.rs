@@ -96,6 +96,7 @@ pub fn extend_paths(
         let depth = lengths.at(chain) + 1;
         let (previous, vertex) = (place.vertex(chain, depth - 1), place.vertex(chain, depth));
         lengths.put(chain, depth);
+        counters.vertices += 1;
 
         let mut emission = Rgb::BLACK;
         if point.light != NOT_EMITTING {
@@ -140,7 +141,6 @@ pub fn extend_paths(
             MaterialKind::Conductor => push(conductor, &mut queues.conductor, chain),
             MaterialKind::Dielectric => push(dielectric, &mut queues.dielectric, chain),
         }
-        counters.vertices += 1;
     }
     queues.rays = 0;
 }
