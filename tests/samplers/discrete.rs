@@ -69,3 +69,13 @@ fn one_entry_is_always_chosen() {
         assert_eq!(stated(&[weight]), [1.0]);
     }
 }
+
+/// What is divided by must not be zero: a weight so small that its probability vanishes in `f32` is never chosen.
+#[test]
+fn what_is_chosen_has_a_probability() {
+    let distribution = Discrete::new([1e-60, 1.0, 1e-60].into_iter());
+    for u in [0.0, 0.5, 1.0 - f64::EPSILON] {
+        let chosen = distribution.sample(u).expect("one has weight");
+        assert!(distribution.probability(chosen) > 0.0, "{u} chooses {chosen}");
+    }
+}

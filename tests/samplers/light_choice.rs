@@ -146,3 +146,15 @@ fn directions_to_several_lights_follow_their_combined_density() {
     off.iter_mut().for_each(|p| *p = p.max(1e-9));
     FAMILY.refuses("powers forgotten", &counts, &with_nothing(off));
 }
+
+/// A light so weak beside the others that its probability vanishes is not sampled: it would bring 0/0.
+#[test]
+fn a_sample_never_has_density_zero() {
+    let faint = triangle_light([Vec3::ZERO, Vec3::X, Vec3::Y], Rgb::splat(1e-38));
+    let strong = sphere_light(Vec3::new(0.0, 0.0, 20.0), 9.0, Rgb::splat(1e6));
+    let table = LightTable::new(vec![faint, strong]);
+    for choice in [0.0, 0.5] {
+        let sample = table.sample(Vec3::new(100.0, 100.0, 100.0), choice, [0.3, 0.4]);
+        assert!(sample.is_none_or(|s| s.density > 0.0), "{choice}: {sample:?}");
+    }
+}
