@@ -67,3 +67,20 @@ fn conductors_agree_with_reference_values() {
         assert!((ours - reflectance).abs() < TOLERANCE, "{eta} {k} {cosine}: {ours}");
     }
 }
+
+/// Without absorption a conductor is a dielectric.
+#[test]
+fn a_conductor_that_does_not_absorb_is_a_dielectric() {
+    for n in [0.1, 0.5, 1.0 / 1.5, 0.999_99, 1.0, 1.000_01, 1.33, 1.5, 2.4, 10.0] {
+        for cosine in [1e-8, 1e-4, 1e-3, 0.05, 0.3, 0.7, 0.999, 1.0] {
+            let (conductor, dielectric) = (
+                fresnel::conductor(cosine, n, 0.0),
+                fresnel::dielectric(cosine, n).reflectance,
+            );
+            assert!(
+                (conductor - dielectric).abs() < TOLERANCE,
+                "{n} {cosine}: {conductor} {dielectric}"
+            );
+        }
+    }
+}
