@@ -6,5 +6,8 @@
 
 mod broken_scenes;
 mod command_line;
+mod physics;
 mod rendering;
+mod samplers;
 mod scene_fuzz;
+mod support;

@@ -94,12 +94,17 @@ impl LightTable {
             EmitterShape::Triangle(corners) => triangle::sample(corners, emitter.area, from, u)?,
             EmitterShape::Sphere { center, radius } => sphere::sample(center, radius, from, u)?,
         };
+        let density = self.choice.probability(number) * point.density;
+        // The product of two tiny numbers can vanish; what was drawn must be divisible by its density.
+        if density == 0.0 {
+            return None;
+        }
         let offset = offset_distance(point.position, point.normal, emitter.area.sqrt());
         Some(LightSample {
             direction: (point.position - from).normalize(),
             target: offset_origin(point.position, point.normal, offset, point.normal),
             radiance: emitter.radiance,
-            density: self.choice.probability(number) * point.density,
+            density,
         })
     }
 

@@ -50,7 +50,9 @@ pub fn conductor(cos_incident: f32, eta: f32, k: f32) -> f32 {
     let (c, eta, k) = (f64::from(cos_incident.clamp(0.0, 1.0)), f64::from(eta), f64::from(k));
     let (c2, s2) = (c * c, 1.0 - c * c);
     let (eta2, k2) = (eta * eta, k * k);
-    let t0 = eta2 - k2 - s2;
+    // η² − k² − sin², with the one of sin² = 1 − cos² taken off first: for an index near 1 at grazing incidence, where all
+    // that is left is cos².
+    let t0 = (eta2 - 1.0) - k2 + c2;
     let a2_b2 = (t0 * t0 + 4.0 * eta2 * k2).sqrt();
     let a = (0.5 * (a2_b2 + t0)).max(0.0).sqrt();
     let perpendicular = (a2_b2 + c2 - 2.0 * a * c) / (a2_b2 + c2 + 2.0 * a * c);

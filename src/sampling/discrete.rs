@@ -10,13 +10,16 @@ pub struct Discrete {
 }
 
 impl Discrete {
-    /// A distribution in proportion to `weights` (finite, not negative). Empty if no weight is positive.
+    /// A distribution in proportion to `weights` (finite, not negative). Empty if no weight is positive. A weight whose
+    /// share of the total is zero in `f32` counts as none, so that what is chosen can be divided by its probability.
     #[must_use]
     pub fn new(weights: impl Iterator<Item = f64> + Clone) -> Self {
         let total: f64 = weights.clone().sum();
         if total.is_nan() || total <= 0.0 {
             return Self::default();
         }
+        let share = move |weight: f64| (weight / total) as f32;
+        let weights = weights.map(move |weight| if share(weight) > 0.0 { weight } else { 0.0 });
         let mut sum = 0.0;
         let mut cumulative: Vec<f64> = Vec::new();
         let mut last_positive = 0;
@@ -30,7 +33,7 @@ impl Discrete {
         for c in &mut cumulative[last_positive..] {
             *c = 1.0;
         }
-        let probabilities = weights.map(|weight| (weight / total) as f32).collect();
+        let probabilities = weights.map(share).collect();
         Self {
             cumulative,
             probabilities,

@@ -1,0 +1,12 @@
+//! Samplers against the densities they claim, by chi-square tests over independent samples. The tests of a file share a
+//! chance of a false alarm of one in a hundred; each prints what it could have seen, and is shown to fail on a planted
+//! bias.
+
+mod diffuse;
+mod discrete;
+mod emitters;
+mod light_choice;
+mod lights;
+mod smooth;
+mod streams;
+mod warps;
