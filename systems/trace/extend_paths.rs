@@ -47,10 +47,6 @@ pub struct Lists<'w, 's> {
 
 /// Appends a vertex to every chain whose ray met a surface, with the light that the surface sends back along the path,
 /// weighted against sampling that light; lists the chain for connection and scattering if its path may grow further.
-#[expect(
-    clippy::too_many_arguments,
-    reason = "a system's parameters are the columns that it touches"
-)]
 pub fn extend_paths(
     scene: Res<SceneRef>,
     place: Res<TilePlace>,
