@@ -2,5 +2,6 @@
 
 mod broken_scenes;
 mod command_line;
+mod geometry;
 mod rendering;
 mod scene_fuzz;
