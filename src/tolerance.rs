@@ -11,14 +11,26 @@ pub const ORIGIN_OFFSET_UNITS: f32 = 4.0;
 /// Guarded by `rays_that_leave_a_surface_never_hit_it_again`.
 pub const ORIGIN_OFFSET_FLOOR: f32 = 1.0 / (1u64 << 40) as f32;
 
-/// A box is entered if the computed entry is below the computed exit times this: 1 + 2γ₃ for f32, the bound of Ize
-/// (2013, "Robust BVH ray traversal") under which no hit box is missed. Guarded by `the_tree_finds_what_a_scan_finds`.
-pub const BOX_EXIT_SLACK: f32 = 1.0 + 2.0 * (3.0 * F32_ROUNDING) / (1.0 - 3.0 * F32_ROUNDING);
+/// How far surface points keep from the edges of their triangle, in units of 2⁻²⁴ · (size + largest coordinate). Half a
+/// unit covers the rounding of a hit's place on the triangle, two those of the point and of the moved origin; the
+/// others make room for the offset where the neighbour leans over the triangle, down to 45 degrees. Guarded by
+/// `closed_rooms_keep_paths_in_and_light_out`.
+pub const EDGE_INSET_UNITS: f32 = 8.0;
 
-/// A box farther than the nearest hit times this is skipped. The slack, four roundings, covers the difference between
-/// a box's distance in f32 and a hit's distance in f64, so that hits that tie are all seen and the least primitive wins
-/// whatever order the tree is walked in. Guarded by `coincident_triangles_return_the_lowest_primitive`.
-pub const CULL_SLACK: f32 = 1.0 + 4.0 * F32_ROUNDING;
+/// The least height over an edge, relative to the triangle's size, that surface points are kept from the edge in
+/// proportion to: it bounds how far a point of a needle moves. Guarded by `points_hardly_move_when_kept_off_edges`.
+pub const LEAST_INSET_HEIGHT: f64 = 0.125;
+
+/// A box is entered if the computed entry is below the computed exit times this, the bound of Ize (2013, "Robust BVH ray
+/// traversal") under which no hit box is missed: three roundings in the entry, three in the exit, and here one more for
+/// the product with this number, rounded up to a number that f32 has. Guarded by `the_tree_finds_what_a_scan_finds`.
+pub const BOX_EXIT_SLACK: f32 = 1.0 + 8.0 * F32_ROUNDING;
+
+/// A box farther than the nearest hit times this is skipped. The slack covers three roundings of the box's distance, one
+/// of the hit's and one of the product with this number, rounded up to a number that f32 has, so that hits that tie are
+/// all seen and the least primitive wins whatever order the tree is walked in. Guarded by
+/// `coincident_triangles_return_the_lowest_primitive`.
+pub const CULL_SLACK: f32 = 1.0 + 6.0 * F32_ROUNDING;
 
 /// Half the distance from 1 to the next f32: the largest relative error of one rounding.
 const F32_ROUNDING: f32 = f32::EPSILON * 0.5;

@@ -6,6 +6,7 @@
 
 mod broken_scenes;
 mod command_line;
+mod geometry;
 mod physics;
 mod rendering;
 mod samplers;

@@ -35,10 +35,16 @@ impl LeafPrimitive {
         })
     }
 
-    /// Whether the primitive has any area, in f64.
-    pub fn has_area(&self) -> bool {
+    /// Whether the primitive can be hit: its numbers are finite, and it has an area in f64. The tree is built over such
+    /// primitives only; one box with a number that is not finite would spoil the order of all.
+    pub fn can_be_hit(&self) -> bool {
         let [a, b, c] = self.corners.map(Vec3::as_dvec3);
-        self.is_sphere || (b - a).cross(c - a).length_squared() > 0.0
+        if self.is_sphere {
+            a.is_finite() && b.is_finite() && b.x > 0.0
+        } else {
+            let finite = a.is_finite() && b.is_finite() && c.is_finite();
+            finite && (b - a).cross(c - a).length_squared() > 0.0
+        }
     }
 
     /// The primitive's box, rounded outwards.

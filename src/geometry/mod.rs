@@ -47,13 +47,14 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// Builds the tree over all primitives. Primitives without area are left out of it: no ray meets them.
+    /// Builds the tree over all primitives. Primitives without area, or with a number that is not
+    /// finite, are left out of it: no ray meets them.
     pub fn build_tree(&mut self) {
         let mut leaves = Vec::with_capacity(self.materials.len());
         for (number, instance) in self.instances.iter().enumerate() {
             for primitive in 0..instance.primitive_count() {
                 let leaf = LeafPrimitive::new(self, number as u32, primitive);
-                leaves.extend(leaf.filter(LeafPrimitive::has_area));
+                leaves.extend(leaf.filter(LeafPrimitive::can_be_hit));
             }
         }
         self.tree = Tree::build(leaves);

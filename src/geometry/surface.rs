@@ -1,8 +1,8 @@
 //! Surface points: what a hit is in the world.
 
 use super::{Geometry, octahedral};
-use crate::tolerance::{ORIGIN_OFFSET_FLOOR, ORIGIN_OFFSET_UNITS};
-use glam::{Vec2, Vec3};
+use crate::tolerance::{EDGE_INSET_UNITS, LEAST_INSET_HEIGHT, ORIGIN_OFFSET_FLOOR, ORIGIN_OFFSET_UNITS};
+use glam::{DVec3, Vec2, Vec3};
 
 /// One shape of the scene.
 #[derive(Clone, Copy, Debug)]
@@ -106,14 +106,17 @@ impl Geometry {
                 let [a, b, c] = corners.map(|i| self.positions[(first_vertex + i) as usize].as_dvec3());
                 let (u, v) = (f64::from(hit.uv.x), f64::from(hit.uv.y));
                 let (ab, ac) = (b - a, c - a);
-                let normal = ab.cross(ac).normalize();
+                let cross = ab.cross(ac);
+                let normal = cross.normalize();
                 let shading = first_normal.map_or(normal, |first| {
                     let [na, nb, nc] = corners.map(|i| self.normals[(first + i) as usize].as_dvec3());
                     let interpolated = na * (1.0 - u - v) + nb * u + nc * v;
                     let smooth = interpolated.try_normalize().unwrap_or(normal);
                     if smooth.dot(normal) < 0.0 { -smooth } else { smooth }
                 });
-                (a + ab * u + ac * v, normal, shading, ab.length() + ac.length())
+                let size = ab.length() + ac.length();
+                let position = inset([a, b, c], u, v, size, cross.length());
+                (position, normal, shading, size)
             }
             InstanceShape::Sphere { center, radius } => {
                 let normal = octahedral::decode(hit.uv);
@@ -135,6 +138,22 @@ impl Geometry {
     }
 }
 
+/// The point of a triangle with weights `u`, `v` of its second and third corner, or the one beside it that is off the
+/// edges by [`EDGE_INSET_UNITS`], or as far as a small or thin triangle allows: what rounding does to the point must not
+/// put it behind a wall that shares an edge. `cross` is twice the triangle's area.
+fn inset([a, b, c]: [DVec3; 3], u: f64, v: f64, size: f64, cross: f64) -> DVec3 {
+    let reach = size + a.abs().max_element();
+    let distance = f64::from(EDGE_INSET_UNITS) * 0.5 * f64::from(f32::EPSILON) * reach;
+    // A corner's least weight: the distance over the corner's height above the opposite edge. Were it not for the lower
+    // bound of the height, the tips of needles would move far.
+    let least = |edge: DVec3| (distance / (cross / edge.length()).max(LEAST_INSET_HEIGHT * size)).min(0.125);
+    let (ab, ac) = (b - a, c - a);
+    let wa = (1.0 - u - v).max(least(c - b));
+    let (wb, wc) = (u.max(least(ac)), v.max(least(ab)));
+    let share = 1.0 / (wa + wb + wc);
+    a + ab * (wb * share) + ac * (wc * share)
+}
+
 /// How far a surface point may be off its surface, with margin: in proportion to its coordinates and, for points near
 /// the world's origin, to the size of the shape. See [`crate::tolerance`].
 pub(crate) fn offset_distance(position: Vec3, normal: Vec3, size: f32) -> f32 {
@@ -143,7 +162,8 @@ pub(crate) fn offset_distance(position: Vec3, normal: Vec3, size: f32) -> f32 {
 }
 
 /// The origin of a ray that leaves a surface point in `direction`: moved along the geometric normal to the side that
-/// the direction points to, by the point's own `offset`.
+/// the direction points to, by the point's own `offset`. It never meets that primitive again if the direction makes an
+/// angle with the surface of 2⁻²² or more; below, directions and normals in f32 do not tell the sides apart.
 #[inline]
 #[must_use]
 pub fn offset_origin(position: Vec3, geometric_normal: Vec3, offset: f32, direction: Vec3) -> Vec3 {

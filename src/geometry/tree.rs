@@ -240,3 +240,83 @@ fn pair_up(bvh: &Bvh2) -> Vec<Pair> {
     }
     pairs
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Geometry, Instance, InstanceShape};
+    use glam::DVec3;
+
+    #[test]
+    fn what_is_pushed_last_is_popped_first_beyond_the_fixed_part_too() {
+        let mut stack = Stack::default();
+        let entry = |first| Entry {
+            first,
+            ..Entry::default()
+        };
+        for count in [1, 47, 48, 49, 50, 200] {
+            (0..count).for_each(|first| stack.push(entry(first)));
+            stack.push(entry(count));
+            let popped: Vec<u32> = std::iter::from_fn(|| stack.pop().map(|entry| entry.first)).collect();
+            assert!(popped.into_iter().eq((0..=count).rev()));
+        }
+    }
+
+    /// Triangles across the x axis at x = 0, 1, 2, ...; each is half of its box.
+    fn sheets(count: u32) -> Vec<LeafPrimitive> {
+        let mut geometry = Geometry::default();
+        for x in 0..count {
+            let x = x as f32;
+            geometry
+                .positions
+                .extend([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(y, z)| Vec3::new(x, y, z)));
+        }
+        geometry.triangles = (0..count).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        geometry.instances.push(Instance {
+            shape: InstanceShape::Mesh {
+                first_triangle: 0,
+                triangle_count: count,
+                first_vertex: 0,
+                first_normal: None,
+            },
+            first_primitive: 0,
+        });
+        (0..count).filter_map(|t| LeafPrimitive::new(&geometry, 0, t)).collect()
+    }
+
+    /// The deepest tree there is: every pair is a leaf of one sheet, and all the sheets behind it.
+    fn chain(primitives: Vec<LeafPrimitive>) -> Tree {
+        let last = primitives.len() as u32 - 1;
+        let pairs = (0..last).map(|i| {
+            let mut pair = Pair::EMPTY;
+            let behind = if i + 1 == last { (last, 1) } else { (i + 1, 0) };
+            for (side, low, high, (first, count)) in [(0, i, i, (i, 1)), (1, i + 1, last, behind)] {
+                for axis in 0..3 {
+                    pair.min[axis][side] = [low as f32, 0.0, 0.0][axis];
+                    pair.max[axis][side] = [high as f32, 1.0, 1.0][axis];
+                }
+                (pair.first[side], pair.count[side]) = (first, count);
+            }
+            pair
+        });
+        Tree {
+            pairs: pairs.collect(),
+            primitives,
+        }
+    }
+
+    #[test]
+    fn a_tree_far_deeper_than_the_fixed_stack_is_walked_in_full() {
+        for count in [2, 48, 49, 50, 51, 1000] {
+            let tree = chain(sheets(count));
+            // From the far end the walk goes down to the last pair first, and leaves every leaf on the way for later.
+            let ray = RayFrame::new(Vec3::new(2000.0, 0.75, 0.75), DVec3::NEG_X);
+            let mut seen = Vec::new();
+            tree.walk(&ray, f32::INFINITY, |leaf| {
+                seen.extend(leaf.iter().map(|primitive| primitive.primitive));
+                Walk::Within(f32::INFINITY)
+            });
+            assert!(seen.into_iter().eq((0..count).rev()), "{count}");
+        }
+    }
+}

@@ -99,9 +99,11 @@ impl LightTable {
         if density == 0.0 {
             return None;
         }
-        let offset = offset_distance(point.position, point.normal, emitter.area.sqrt());
+        let span = point.position - from;
+        // The farther the light, the coarser the intersector's view of it, even in f64.
+        let offset = offset_distance(point.position, point.normal, emitter.area.sqrt() + span.length());
         Some(LightSample {
-            direction: (point.position - from).normalize(),
+            direction: span.normalize(),
             target: offset_origin(point.position, point.normal, offset, point.normal),
             radiance: emitter.radiance,
             density,
