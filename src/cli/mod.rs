@@ -1,11 +1,13 @@
 //! The program's commands, one file each.
 
+mod budget;
 pub mod compare;
 mod load;
 mod output;
 pub mod plan;
 pub mod profile;
 pub mod render;
+mod report;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;

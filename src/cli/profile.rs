@@ -1,8 +1,8 @@
 //! `profile`: what every stage costs.
 
+use super::budget::BudgetArgs;
 use super::load::SceneArgs;
 use super::output::{count, print};
-use super::render::BudgetArgs;
 use crate::film::write_file;
 use crate::plan::{Stage, SystemId};
 use crate::render::{Budget, Render, drive};
