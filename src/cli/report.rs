@@ -90,40 +90,38 @@ impl<'a> Report<'a> {
 
     /// The summary for people.
     pub(super) fn summary(&self, png: &Path) -> String {
-        let report = self;
         let Self {
             technique,
             steps,
             render_seconds,
             threads,
             ..
-        } = report;
-        let error = report
+        } = self;
+        let error = self
             .relative_rms_error
             .map(|e| format!(", relative RMS error {:.2} %", 100.0 * e))
             .unwrap_or_default();
-        let interrupted = if report.interrupted { "interrupted; " } else { "" };
+        let interrupted = if self.interrupted { "interrupted; " } else { "" };
         format!(
             "{interrupted}{technique}: {steps} samples per pixel in {render_seconds:.1} s on {threads} threads, {} samples/s{error}\n\
          wrote {} and {}",
-            count(report.samples_per_second),
-            report.output,
+            count(self.samples_per_second),
+            self.output,
             png.display()
         )
     }
 
     /// Says in words what numbers in the report would hide.
     pub(super) fn warn(&self) {
-        let report = self;
-        if let (n @ 1.., Some((chain, step))) = (report.non_finite, report.first_non_finite) {
+        if let (n @ 1.., Some((chain, step))) = (self.non_finite, self.first_non_finite) {
             note(&format!(
                 "warning: {n} samples were not finite and count as black; the first: chain {chain}, step {step}"
             ));
         }
-        if report.saturated > 0 {
+        if self.saturated > 0 {
             note(&format!(
                 "warning: {} samples were too bright for the film and were cut: the picture is wrong",
-                report.saturated
+                self.saturated
             ));
         }
     }
