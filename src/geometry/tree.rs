@@ -89,13 +89,19 @@ impl Tree {
     /// Shows `visit` the primitives of every leaf whose box the ray meets within `limit` (in units of the direction's
     /// length), nearer boxes first; `visit` answers how far it still wants to look.
     #[inline]
-    pub fn walk(&self, ray: &RayFrame, mut limit: f32, mut visit: impl FnMut(&[LeafPrimitive]) -> Walk) {
+    pub fn walk(
+        &self,
+        ray: &RayFrame,
+        stack: &mut Stack,
+        mut limit: f32,
+        mut visit: impl FnMut(&[LeafPrimitive]) -> Walk,
+    ) {
         if self.pairs.is_empty() {
             return;
         }
         let inverse = ray.direction.recip().as_vec3().to_array();
         let origin = ray.origin.as_vec3().to_array();
-        let mut stack = Stack::default();
+        stack.clear();
         let mut next = Some(Entry {
             first: 0,
             count: 0,
@@ -170,8 +176,8 @@ struct Entry {
     distance: f32,
 }
 
-/// Boxes still to visit: a fixed array, and the heap for the rare tree that is deeper.
-struct Stack {
+/// Boxes still to visit: a fixed array, and the heap for the rare tree that is deeper. One serves all rays of a queue.
+pub struct Stack {
     fixed: [Entry; Self::FIXED],
     len: usize,
     spill: Vec<Entry>,
@@ -190,6 +196,12 @@ impl Default for Stack {
 
 impl Stack {
     const FIXED: usize = 48;
+
+    #[inline]
+    fn clear(&mut self) {
+        self.len = 0;
+        self.spill.clear();
+    }
 
     #[inline]
     fn push(&mut self, entry: Entry) {
@@ -307,12 +319,13 @@ mod tests {
 
     #[test]
     fn a_tree_far_deeper_than_the_fixed_stack_is_walked_in_full() {
+        let mut stack = Stack::default();
         for count in [2, 48, 49, 50, 51, 1000] {
             let tree = chain(sheets(count));
             // From the far end the walk goes down to the last pair first, and leaves every leaf on the way for later.
             let ray = RayFrame::new(Vec3::new(2000.0, 0.75, 0.75), DVec3::NEG_X);
             let mut seen = Vec::new();
-            tree.walk(&ray, f32::INFINITY, |leaf| {
+            tree.walk(&ray, &mut stack, f32::INFINITY, |leaf| {
                 seen.extend(leaf.iter().map(|primitive| primitive.primitive));
                 Walk::Within(f32::INFINITY)
             });
