@@ -2,7 +2,7 @@
 
 use super::Geometry;
 use super::queue::{HitColumns, NO_HIT, RayColumns, SegmentColumns, SegmentTransmittance};
-use super::tree::Walk;
+use super::tree::{Stack, Walk};
 use super::triangle::RayFrame;
 use crate::color::Rgb;
 use crate::table::Rows;
@@ -19,8 +19,10 @@ struct Nearest {
 impl Geometry {
     /// Writes the closest hit of every ray: the lexicographic minimum of (distance, instance, primitive).
     pub fn closest_hits(&self, rays: RayColumns<'_>, hits: HitColumns<'_>) {
+        let mut stack = Stack::default();
         for i in 0..rays.len {
-            let nearest = self.closest_hit(&RayFrame::new(rays.origin.at(i), rays.direction.at(i).as_dvec3()));
+            let ray = RayFrame::new(rays.origin.at(i), rays.direction.at(i).as_dvec3());
+            let nearest = self.closest_hit(&ray, &mut stack);
             hits.distance.put(i, nearest.distance);
             hits.instance.put(i, nearest.instance);
             hits.primitive.put(i, nearest.primitive);
@@ -31,24 +33,25 @@ impl Geometry {
     /// Writes the share of light that passes along every segment, ends excluded. Every surface is opaque so far, so it
     /// is one or zero.
     pub fn transmittances(&self, segments: SegmentColumns<'_>, transmittance: &mut [SegmentTransmittance]) {
+        let mut stack = Stack::default();
         for i in 0..segments.len {
             let origin = segments.origin.at(i);
             // In f64, so that a segment to a far target ends where the target is.
             let span = segments.target.at(i).as_dvec3() - origin.as_dvec3();
-            let blocked = self.blocked(&RayFrame::new(origin, span));
+            let blocked = self.blocked(&RayFrame::new(origin, span), &mut stack);
             transmittance.put(i, if blocked { Rgb::BLACK } else { Rgb::ONE });
         }
     }
 
     #[inline]
-    fn closest_hit(&self, ray: &RayFrame) -> Nearest {
+    fn closest_hit(&self, ray: &RayFrame, stack: &mut Stack) -> Nearest {
         let mut nearest = Nearest {
             distance: f32::INFINITY,
             instance: NO_HIT,
             primitive: NO_HIT,
             uv: Vec2::ZERO,
         };
-        self.tree.walk(ray, f32::INFINITY, |leaf| {
+        self.tree.walk(ray, stack, f32::INFINITY, |leaf| {
             for primitive in leaf {
                 let Some((t, uv)) = primitive.hit(ray) else { continue };
                 let key = (t as f32, primitive.instance, primitive.primitive);
@@ -63,9 +66,9 @@ impl Geometry {
     }
 
     #[inline]
-    fn blocked(&self, ray: &RayFrame) -> bool {
+    fn blocked(&self, ray: &RayFrame, stack: &mut Stack) -> bool {
         let mut blocked = false;
-        self.tree.walk(ray, 1.0, |leaf| {
+        self.tree.walk(ray, stack, 1.0, |leaf| {
             blocked = leaf.iter().any(|primitive| primitive.blocks(ray));
             if blocked { Walk::Stop } else { Walk::Within(1.0) }
         });

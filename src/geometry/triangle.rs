@@ -13,9 +13,15 @@ pub struct RayFrame {
     pub origin: DVec3,
     /// Direction.
     pub direction: DVec3,
+    /// Axes in the order that makes the dominant one the last.
     axes: [usize; 3],
+    /// The origin in that order.
+    ordered_origin: [f64; 3],
     shear: [f64; 3],
 }
+
+/// A triangle's corners by axis, `[axis][corner]`: a ray picks whole rows in its own order of axes.
+pub type CornerRows = [[f32; 3]; 3];
 
 /// Where a ray meets a triangle's plane inside the triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,33 +54,25 @@ impl RayFrame {
             std::mem::swap(&mut x, &mut y);
         }
         let shear = [d[x] / d[z], d[y] / d[z], 1.0 / d[z]];
+        let origin = origin.as_dvec3();
         Self {
-            origin: origin.as_dvec3(),
+            origin,
             direction,
             axes: [x, y, z],
+            ordered_origin: [origin[x], origin[y], origin[z]],
             shear,
         }
     }
 
-    #[inline]
-    fn sheared(&self, corner: Vec3) -> [f64; 3] {
-        let c = (corner.as_dvec3() - self.origin).to_array();
-        let z = c[self.axes[2]];
-        [
-            c[self.axes[0]] - self.shear[0] * z,
-            c[self.axes[1]] - self.shear[1] * z,
-            self.shear[2] * z,
-        ]
-    }
-
-    /// Where the ray's line crosses the triangle `a`, `b`, `c`, edges included; `None` if it does not, if the triangle
-    /// is seen edge-on, or if a number is not finite.
+    /// Where the ray's line crosses a triangle, edges included; `None` if it does not, if the triangle is seen edge-on,
+    /// or if a number is not finite.
     #[inline]
     #[must_use]
-    pub fn cross(&self, [a, b, c]: [Vec3; 3]) -> Option<Crossing> {
-        let [ax, ay, az] = self.sheared(a);
-        let [bx, by, bz] = self.sheared(b);
-        let [cx, cy, cz] = self.sheared(c);
+    pub fn cross(&self, corners: &CornerRows) -> Option<Crossing> {
+        let row = |i: usize| corners[self.axes[i]].map(|x| f64::from(x) - self.ordered_origin[i]);
+        let (x, y, z) = (row(0), row(1), row(2));
+        let [ax, bx, cx] = [0, 1, 2].map(|corner| x[corner] - self.shear[0] * z[corner]);
+        let [ay, by, cy] = [0, 1, 2].map(|corner| y[corner] - self.shear[1] * z[corner]);
         let wa = cx * by - cy * bx;
         let wb = ax * cy - ay * cx;
         let wc = bx * ay - by * ax;
@@ -83,6 +81,7 @@ impl RayFrame {
         if !inside || det == 0.0 {
             return None;
         }
+        let [az, bz, cz] = z.map(|z| self.shear[2] * z);
         let inverse = 1.0 / det;
         Some(Crossing {
             t: (wa * az + wb * bz + wc * cz) * inverse,
@@ -96,13 +95,14 @@ impl RayFrame {
 mod tests {
     use super::*;
 
-    const UNIT: [Vec3; 3] = [Vec3::ZERO, Vec3::X, Vec3::Y];
+    /// Corners (0, 0, 0), (1, 0, 0), (0, 1, 0).
+    const UNIT: CornerRows = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
 
     #[test]
     fn a_crossing_tells_distance_and_barycentric_weights() {
         let ray = RayFrame::new(Vec3::new(0.25, 0.5, 2.0), DVec3::new(0.0, 0.0, -2.0));
         assert_eq!(
-            ray.cross(UNIT),
+            ray.cross(&UNIT),
             Some(Crossing {
                 t: 1.0,
                 u: 0.25,
@@ -115,7 +115,7 @@ mod tests {
     fn edges_and_corners_belong_to_the_triangle() {
         for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.5, 0.5), (0.5, 0.0), (0.0, 0.5)] {
             let ray = RayFrame::new(Vec3::new(x, y, 1.0), DVec3::NEG_Z);
-            assert!(ray.cross(UNIT).is_some(), "({x}, {y})");
+            assert!(ray.cross(&UNIT).is_some(), "({x}, {y})");
         }
     }
 
@@ -126,8 +126,8 @@ mod tests {
             for corner in 0..3 {
                 for axis in 0..3 {
                     let mut triangle = UNIT;
-                    triangle[corner][axis] = bad;
-                    let hit = ray.cross(triangle);
+                    triangle[axis][corner] = bad;
+                    let hit = ray.cross(&triangle);
                     assert!(hit.is_none_or(|h| h.t.is_nan()), "{bad} at {corner}.{axis}: {hit:?}");
                 }
             }
