@@ -49,6 +49,8 @@ pub struct LightSample {
 #[derive(Clone, Debug, Default)]
 pub struct LightTable {
     emitters: Vec<Emitter>,
+    /// Unit geometric normals of triangles; spheres have one per point.
+    normals: Vec<Vec3>,
     /// In proportion to power.
     choice: Discrete,
 }
@@ -59,7 +61,16 @@ impl LightTable {
     pub fn new(emitters: Vec<Emitter>) -> Self {
         let power = |e: &Emitter| PI * f64::from(e.area) * f64::from(e.radiance.mean());
         let choice = Discrete::new(emitters.iter().map(power));
-        Self { emitters, choice }
+        let normal = |emitter: &Emitter| match emitter.shape {
+            EmitterShape::Triangle(corners) => triangle::normal(corners),
+            EmitterShape::Sphere { .. } => Vec3::ZERO,
+        };
+        let normals = emitters.iter().map(normal).collect();
+        Self {
+            emitters,
+            normals,
+            choice,
+        }
     }
 
     /// Number of emitters.
@@ -91,7 +102,7 @@ impl LightTable {
         let number = self.choice.sample(choice)?;
         let emitter = &self.emitters[number];
         let point = match emitter.shape {
-            EmitterShape::Triangle(corners) => triangle::sample(corners, emitter.area, from, u)?,
+            EmitterShape::Triangle(corners) => triangle::sample(corners, self.normals[number], emitter.area, from, u)?,
             EmitterShape::Sphere { center, radius } => sphere::sample(center, radius, from, u)?,
         };
         let density = self.choice.probability(number) * point.density;
