@@ -11,10 +11,9 @@ pub const ORIGIN_OFFSET_UNITS: f32 = 4.0;
 /// Guarded by `rays_that_leave_a_surface_never_hit_it_again`.
 pub const ORIGIN_OFFSET_FLOOR: f32 = 1.0 / (1u64 << 40) as f32;
 
-/// How far surface points keep from the edges of their triangle, in units of 2⁻²⁴ · (size + largest coordinate). Half a
-/// unit covers the rounding of a hit's place on the triangle, two those of the point and of the moved origin; the
-/// others make room for the offset where the neighbour leans over the triangle, down to 45 degrees. Guarded by
-/// `closed_rooms_keep_paths_in_and_light_out`.
+/// How far surface points keep from the edges of their triangle, in units of 2⁻²⁴ · the point's largest coordinate. Two
+/// units cover the rounding of the point and of the moved origin; the others make room for the offset where the
+/// neighbour leans over the triangle, down to 45 degrees. Guarded by `closed_rooms_keep_paths_in_and_light_out`.
 pub const EDGE_INSET_UNITS: f32 = 8.0;
 
 /// The least height over an edge, relative to the triangle's size, that surface points are kept from the edge in

@@ -89,6 +89,13 @@ pub struct Counters {
 }
 
 impl Counters {
+    /// Counts a contribution that is not finite, and keeps the first of them in the order of steps, then chains: an order
+    /// that does not depend on how tiles are dealt.
+    pub fn note_non_finite(&mut self, chain: u32, step: u64) {
+        self.non_finite += 1;
+        self.first_non_finite = earlier(self.first_non_finite, Some((chain, step)));
+    }
+
     /// The sum of two tiles' counts.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
@@ -99,12 +106,16 @@ impl Counters {
             segments: self.segments + other.segments,
             vertices: self.vertices + other.vertices,
             non_finite: self.non_finite + other.non_finite,
-            // The least by step, so that it does not depend on how tiles were dealt to worlds.
-            first_non_finite: match (self.first_non_finite, other.first_non_finite) {
-                (Some(a), Some(b)) => Some(if (b.1, b.0) < (a.1, a.0) { b } else { a }),
-                (a, b) => a.or(b),
-            },
+            first_non_finite: earlier(self.first_non_finite, other.first_non_finite),
         }
+    }
+}
+
+/// The earlier of two (chain, step), by step first.
+fn earlier(a: Option<(u32, u64)>, b: Option<(u32, u64)>) -> Option<(u32, u64)> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if (b.1, b.0) < (a.1, a.0) { b } else { a }),
+        (a, b) => a.or(b),
     }
 }
 
@@ -113,4 +124,29 @@ impl Counters {
 #[must_use]
 pub const fn connectable(kind: u32) -> bool {
     kind != VERTEX_LENS && kind != VERTEX_DISCRETE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_non_finite_contribution_does_not_depend_on_the_order_of_tiles() {
+        let seen = [(7, 9), (3000, 0), (5, 0), (1, 2)];
+        let mut in_order = Counters::default();
+        seen.iter()
+            .for_each(|&(chain, step)| in_order.note_non_finite(chain, step));
+        let mut backwards = Counters::default();
+        seen.iter()
+            .rev()
+            .for_each(|&(chain, step)| backwards.note_non_finite(chain, step));
+        assert_eq!(in_order, backwards);
+        assert_eq!((in_order.non_finite, in_order.first_non_finite), (4, Some((5, 0))));
+        let apart = seen.map(|(chain, step)| {
+            let mut counters = Counters::default();
+            counters.note_non_finite(chain, step);
+            counters
+        });
+        assert_eq!(apart.into_iter().fold(Counters::default(), Counters::plus), in_order);
+    }
 }

@@ -25,7 +25,7 @@ pub struct CompareArgs {
 /// # Errors
 /// Where a file cannot be read, the sizes differ, or nobody reads what is printed.
 pub fn run(args: &CompareArgs) -> Result<()> {
-    writeln!(std::io::stdout().lock(), "{}", report(args)?).into_diagnostic()
+    super::output::print(&report(args)?)
 }
 
 /// What the command prints.

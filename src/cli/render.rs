@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub const DEFAULT_SPP: u64 = 64;
 
 /// Steps of a progress bar.
-const BAR_STEPS: u64 = 1000;
+const BAR_STEPS: u64 = 1_000_000;
 
 /// Arguments of `render`.
 #[derive(Args, Clone, Debug)]

@@ -4,7 +4,7 @@ use super::octahedral;
 use super::surface::InstanceShape;
 use super::triangle::{CornerRows, RayFrame};
 use super::{Geometry, sphere};
-use glam::{Vec2, Vec3, Vec3A};
+use glam::{DVec2, Vec3, Vec3A};
 use obvhs::aabb::Aabb;
 
 /// A triangle or a sphere, with the names a hit reports.
@@ -70,7 +70,7 @@ impl LeafPrimitive {
 
     /// The nearest hit in front of the origin: distance and coordinates on the primitive.
     #[inline]
-    pub fn hit(&self, ray: &RayFrame) -> Option<(f64, Vec2)> {
+    pub fn hit(&self, ray: &RayFrame) -> Option<(f64, DVec2)> {
         if self.is_sphere {
             let (center, radius) = (self.column(0), self.corners[0][1]);
             let roots = sphere::cross(ray, center, radius)?;
@@ -79,7 +79,7 @@ impl LeafPrimitive {
             Some((t, octahedral::encode(outward)))
         } else {
             let crossing = ray.cross(&self.corners)?;
-            (crossing.t > 0.0).then(|| (crossing.t, Vec2::new(crossing.u as f32, crossing.v as f32)))
+            (crossing.t > 0.0).then(|| (crossing.t, DVec2::new(crossing.u, crossing.v)))
         }
     }
 

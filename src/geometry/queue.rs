@@ -2,7 +2,7 @@
 
 use crate::color::Rgb;
 use crate::columns;
-use glam::{Vec2, Vec3};
+use glam::{DVec2, Vec3};
 
 /// The instance of a ray that met nothing.
 pub const NO_HIT: u32 = u32::MAX;
@@ -19,8 +19,8 @@ columns! {
     /// Primitive that was hit, counted inside its instance.
     pub HitPrimitive: u32;
     /// Where on the primitive: barycentric weights of a triangle's second and third corner, or a sphere's octahedral
-    /// coordinates.
-    pub HitUv: Vec2;
+    /// coordinates. In f64: across a large triangle, f32 would move the point by more than its rounding.
+    pub HitUv: DVec2;
     /// The far end of a segment, world space, already moved off its surface.
     pub SegmentTarget: Vec3;
     /// The share of light that a segment lets through, per channel.

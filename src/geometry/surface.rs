@@ -2,7 +2,7 @@
 
 use super::{Geometry, octahedral};
 use crate::tolerance::{EDGE_INSET_UNITS, LEAST_INSET_HEIGHT, ORIGIN_OFFSET_FLOOR, ORIGIN_OFFSET_UNITS};
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 
 /// One shape of the scene.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +55,7 @@ pub struct Hit {
     /// Primitive number inside the instance.
     pub primitive: u32,
     /// Coordinates on the primitive, see [`HitUv`](super::HitUv).
-    pub uv: Vec2,
+    pub uv: DVec2,
 }
 
 /// A surface point in world space.
@@ -104,7 +104,7 @@ impl Geometry {
             } => {
                 let corners = self.triangles[(first_triangle + hit.primitive) as usize];
                 let [a, b, c] = corners.map(|i| self.positions[(first_vertex + i) as usize].as_dvec3());
-                let (u, v) = (f64::from(hit.uv.x), f64::from(hit.uv.y));
+                let (u, v) = (hit.uv.x, hit.uv.y);
                 let (ab, ac) = (b - a, c - a);
                 let cross = ab.cross(ac);
                 let normal = cross.normalize();
@@ -142,14 +142,19 @@ impl Geometry {
 /// edges by [`EDGE_INSET_UNITS`], or as far as a small or thin triangle allows: what rounding does to the point must not
 /// put it behind a wall that shares an edge. `cross` is twice the triangle's area.
 fn inset([a, b, c]: [DVec3; 3], u: f64, v: f64, size: f64, cross: f64) -> DVec3 {
-    let reach = size + a.abs().max_element();
-    let distance = f64::from(EDGE_INSET_UNITS) * 0.5 * f64::from(f32::EPSILON) * reach;
+    let (ab, ac) = (b - a, c - a);
+    let point = a + ab * u + ac * v;
+    let rounding = 0.5 * f64::from(f32::EPSILON) * point.abs().max_element();
+    let distance = f64::from(EDGE_INSET_UNITS) * rounding + f64::from(ORIGIN_OFFSET_FLOOR) * size;
     // A corner's least weight: the distance over the corner's height above the opposite edge. Were it not for the lower
     // bound of the height, the tips of needles would move far.
     let least = |edge: DVec3| (distance / (cross / edge.length()).max(LEAST_INSET_HEIGHT * size)).min(0.125);
-    let (ab, ac) = (b - a, c - a);
-    let wa = (1.0 - u - v).max(least(c - b));
-    let (wb, wc) = (u.max(least(ac)), v.max(least(ab)));
+    let (wa, wb, wc) = (1.0 - u - v, u, v);
+    let (la, lb, lc) = (least(c - b), least(ac), least(ab));
+    if wa >= la && wb >= lb && wc >= lc {
+        return point;
+    }
+    let (wa, wb, wc) = (wa.max(la), wb.max(lb), wc.max(lc));
     let share = 1.0 / (wa + wb + wc);
     a + ab * (wb * share) + ac * (wc * share)
 }

@@ -6,14 +6,15 @@ use super::tree::{Stack, Walk};
 use super::triangle::RayFrame;
 use crate::color::Rgb;
 use crate::table::Rows;
-use glam::Vec2;
+use glam::DVec2;
 
-/// A hit as it is compared: the least (distance, instance, primitive) wins.
+/// A hit as it is compared: the least (distance, instance, primitive) wins. In f64: of two surfaces that lie closer than
+/// f32 tells apart at that distance, the nearer one is still seen.
 struct Nearest {
-    distance: f32,
+    distance: f64,
     instance: u32,
     primitive: u32,
-    uv: Vec2,
+    uv: DVec2,
 }
 
 impl Geometry {
@@ -23,7 +24,7 @@ impl Geometry {
         for i in 0..rays.len {
             let ray = RayFrame::new(rays.origin.at(i), rays.direction.at(i).as_dvec3());
             let nearest = self.closest_hit(&ray, &mut stack);
-            hits.distance.put(i, nearest.distance);
+            hits.distance.put(i, nearest.distance as f32);
             hits.instance.put(i, nearest.instance);
             hits.primitive.put(i, nearest.primitive);
             hits.uv.put(i, nearest.uv);
@@ -46,21 +47,22 @@ impl Geometry {
     #[inline]
     fn closest_hit(&self, ray: &RayFrame, stack: &mut Stack) -> Nearest {
         let mut nearest = Nearest {
-            distance: f32::INFINITY,
+            distance: f64::INFINITY,
             instance: NO_HIT,
             primitive: NO_HIT,
-            uv: Vec2::ZERO,
+            uv: DVec2::ZERO,
         };
         self.tree.walk(ray, stack, f32::INFINITY, |leaf| {
             for primitive in leaf {
                 let Some((t, uv)) = primitive.hit(ray) else { continue };
-                let key = (t as f32, primitive.instance, primitive.primitive);
+                let key = (t, primitive.instance, primitive.primitive);
                 if key < (nearest.distance, nearest.instance, nearest.primitive) {
                     (nearest.distance, nearest.instance, nearest.primitive) = key;
                     nearest.uv = uv;
                 }
             }
-            Walk::Within(nearest.distance)
+            // Rounded up: a box no farther than the hit is looked into.
+            Walk::Within((nearest.distance as f32).next_up())
         });
         nearest
     }

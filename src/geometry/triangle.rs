@@ -81,10 +81,11 @@ impl RayFrame {
         if !inside || det == 0.0 {
             return None;
         }
-        let [az, bz, cz] = z.map(|z| self.shear[2] * z);
         let inverse = 1.0 / det;
+        // From the first corner on, not as a sum of three weighted corners: where all are equally far, it is exact.
+        let depth = z[0] + (wb * (z[1] - z[0]) + wc * (z[2] - z[0])) * inverse;
         Some(Crossing {
-            t: (wa * az + wb * bz + wc * cz) * inverse,
+            t: depth * self.shear[2],
             u: wb * inverse,
             v: wc * inverse,
         })

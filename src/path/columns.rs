@@ -7,7 +7,7 @@
 use crate::color::Rgb;
 use crate::columns;
 use bevy_ecs::component::Component;
-use glam::{Vec2, Vec3};
+use glam::{DVec2, Vec3};
 
 /// Marks the rows of the chain table.
 #[derive(Component, Clone, Copy, Debug)]
@@ -78,7 +78,7 @@ columns! {
     /// Primitive of the surface, counted inside the instance.
     pub VertexPrimitive: u32;
     /// Coordinates on the primitive.
-    pub VertexUv: Vec2;
+    pub VertexUv: DVec2;
     /// Material number.
     pub VertexMaterial: u32;
     /// f · |cos| / p of scattering at the vertex (and of surviving roulette there); 1 on the lens.

@@ -103,10 +103,12 @@ impl Stream {
         [first, self.next_f32()]
     }
 
-    /// A uniform number in [0, 1), a multiple of 2⁻³²: fine enough to choose among millions of lights.
+    /// A uniform number in [0, 1), a multiple of 2⁻⁵³: fine enough to choose among millions of unequal lights.
     #[inline]
     pub fn next_f64(&mut self) -> f64 {
-        f64::from(self.generator.next_u32()) * (1.0 / 4_294_967_296.0)
+        let high = u64::from(self.generator.next_u32() >> 5);
+        let low = u64::from(self.generator.next_u32() >> 6);
+        ((high << 26) | low) as f64 * (1.0 / 9_007_199_254_740_992.0)
     }
 }
 
@@ -117,7 +119,7 @@ mod tests {
     #[test]
     fn uniform_numbers_stay_below_one() {
         assert!((u32::MAX >> 8) as f32 * (1.0 / 16_777_216.0) < 1.0);
-        assert!(f64::from(u32::MAX) * (1.0 / 4_294_967_296.0) < 1.0);
+        assert!(((1_u64 << 53) - 1) as f64 * (1.0 / 9_007_199_254_740_992.0) < 1.0);
     }
 
     #[test]

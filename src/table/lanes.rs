@@ -2,7 +2,7 @@
 
 use crate::color::Rgb;
 use bytemuck::{Pod, Zeroable};
-use glam::{Vec2, Vec3};
+use glam::{DVec2, Vec3};
 
 /// Chains (or rays) in one row of a table.
 pub const LANES: usize = 16;
@@ -60,15 +60,21 @@ lane_array!(
     u64
 );
 
+lane_array!(
+    /// Sixteen `f64`.
+    LanesF64,
+    f64
+);
+
 /// Sixteen triples of `f32`, component by component.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C, align(64))]
 pub struct Lanes3(pub [LanesF32; 3]);
 
-/// Sixteen pairs of `f32`, component by component.
+/// Sixteen pairs of `f64`, component by component.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C, align(64))]
-pub struct Lanes2(pub [LanesF32; 2]);
+pub struct LanesD2(pub [LanesF64; 2]);
 
 impl LaneValue for Vec3 {
     type Store = Lanes3;
@@ -102,15 +108,15 @@ impl LaneValue for Rgb {
     }
 }
 
-impl LaneValue for Vec2 {
-    type Store = Lanes2;
+impl LaneValue for DVec2 {
+    type Store = LanesD2;
     #[inline]
-    fn load(store: &Lanes2, lane: usize) -> Self {
+    fn load(store: &LanesD2, lane: usize) -> Self {
         let l = lane % LANES;
         Self::new(store.0[0].0[l], store.0[1].0[l])
     }
     #[inline]
-    fn store(store: &mut Lanes2, lane: usize, value: Self) {
+    fn store(store: &mut LanesD2, lane: usize, value: Self) {
         let l = lane % LANES;
         store.0[0].0[l] = value.x;
         store.0[1].0[l] = value.y;

@@ -19,10 +19,7 @@ pub fn accept_always(
     for chain in 0..place.chains as usize {
         if !contributions.at(chain).is_finite() {
             contributions.put(chain, Rgb::BLACK);
-            counters.non_finite += 1;
-            counters
-                .first_non_finite
-                .get_or_insert((place.first_chain + chain as u32, place.step));
+            counters.note_non_finite(place.first_chain + chain as u32, place.step);
         }
         weights.put(chain, 1.0);
         decisions.put(chain, decisions.at(chain).wrapping_add(1));

@@ -40,7 +40,7 @@ fn a_hit_on_a_triangle_is_where_the_ray_was_aimed() {
             assert!((f64::from(found.distance) - away.length()).abs() < 2e-5, "{found:?}");
             // The direction is rounded: its 1e-7 over a length of 5, seen at a slant, across a triangle of area 0.05.
             assert!(
-                found.uv.distance(glam::Vec2::new(u, v)) < 1e-4,
+                found.uv.distance(glam::DVec2::new(u.into(), v.into())) < 1e-4,
                 "{found:?} for {u}, {v}"
             );
             let hit = found.hit().expect("a hit");
@@ -80,7 +80,8 @@ fn points_hardly_move_when_kept_off_edges() {
         }
         let geometry = World::default().mesh(&[[a, b, c]]).compile().geometry;
         let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
-        let unit = f64::from(f32::EPSILON) * 0.5 * ((b - a).length() + (c - a).length() + a.abs().max_element());
+        let reach = (b - a).length() + (c - a).length() + a.abs().max_element();
+        let unit = f64::from(f32::EPSILON) * 0.5 * reach;
         let area = (b - a).cross(c - a).length();
         let heights = [c - b, c - a, b - a].map(|edge| area / edge.length());
         for (u, v) in [
@@ -95,17 +96,18 @@ fn points_hardly_move_when_kept_off_edges() {
             let hit = Hit {
                 instance: 0,
                 primitive: 0,
-                uv: glam::Vec2::new(u, v),
+                uv: glam::DVec2::new(u, v),
             };
             let position = geometry.surface_point(hit).position.as_dvec3();
-            let moved = position.distance(a + (b - a) * f64::from(u) + (c - a) * f64::from(v));
+            let moved = position.distance(a + (b - a) * u + (c - a) * v);
             assert!(moved < 128.0 * unit, "{moved} of {unit}");
             let normal = (b - a).cross(c - a).normalize();
             let off = [(b, c), (c, a), (a, b)].map(|(p, q)| normal.dot((q - p).cross(position - p)) / (q - p).length());
             let roomy = heights
                 .iter()
                 .all(|&h| h > 0.125 * ((b - a).length() + (c - a).length()));
-            assert!(!roomy || off.iter().all(|&d| d > 6.0 * unit), "{off:?} of {unit}");
+            let rounding = f64::from(f32::EPSILON) * 0.5 * position.abs().max_element();
+            assert!(!roomy || off.iter().all(|&d| d > 6.0 * rounding), "{off:?} of {rounding}");
         }
     }
 }
@@ -119,7 +121,7 @@ fn interpolated_normals_stay_on_the_side_of_the_surface() {
         let geometry = World::default().smooth(&[corners], normals).compile().geometry;
         let found = closest(&geometry, &[(Vec3::new(0.25, 0.25, 1.0), Vec3::NEG_Z)])[0];
         let mut hit = found.hit().expect("a hit");
-        hit.uv = glam::Vec2::new(0.5, 0.0);
+        hit.uv = glam::DVec2::new(0.5, 0.0);
         let point = geometry.surface_point(hit);
         assert!(point.shading_normal.distance(expected) < 1e-6, "{point:?}");
     }
@@ -172,5 +174,31 @@ fn a_hit_names_the_material_and_the_light() {
         let found = closest(&geometry, &[(Vec3::new(0.25, 0.25, z), Vec3::Z)])[0];
         assert_eq!(found.name(), name);
         assert_eq!(geometry.surface_point(found.hit().expect("a hit")).light, light);
+    }
+}
+
+#[test]
+fn points_on_a_huge_triangle_are_as_exact_as_those_on_a_small_one() {
+    let mut dice = Dice::new(75);
+    let size = 1e6;
+    let floor = [
+        Vec3::new(-size, 0.0, -size),
+        Vec3::new(-size, 0.0, size),
+        Vec3::new(size, 0.0, -size),
+    ];
+    let geometry = World::default().mesh(&[floor]).compile().geometry;
+    let rays: Vec<_> = (0..10_000)
+        .map(|_| {
+            (
+                Vec3::new(dice.between(-1.0, -0.1), 1.0, dice.between(-1.0, -0.1)),
+                Vec3::NEG_Y,
+            )
+        })
+        .collect();
+    for (ray, found) in rays.iter().zip(closest(&geometry, &rays)) {
+        let point = geometry.surface_point(found.hit().expect("the floor"));
+        let expected = Vec3::new(ray.0.x, 0.0, ray.0.z);
+        let off = point.position.distance(expected);
+        assert!(off < 2e-7, "{off} at {expected}");
     }
 }

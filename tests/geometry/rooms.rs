@@ -102,13 +102,10 @@ fn closed_rooms_keep_paths_in_and_light_out() {
             placed(&icosphere(1), scale, center),
             placed(&tetrahedron(), scale, center),
         ];
-        for (kind, mesh) in meshes.into_iter().enumerate() {
+        for mesh in meshes {
             let outer = room((center - outside).as_vec3(), (center + outside).as_vec3());
             let scene = World::default().mesh(&mesh).light_mesh(&outer).compile();
             let walked = walk(&scene, &mesh, center, 2100, 30, &mut dice);
-            if walked.lost + walked.lit > 0 {
-                eprintln!("{scale} {distance} {kind} {walked:?}");
-            }
             total.rays += walked.rays;
             total.segments += walked.segments;
             total.lost += walked.lost;

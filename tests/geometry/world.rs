@@ -7,7 +7,7 @@ use chainlight::geometry::{
 };
 use chainlight::scene::{self, Emission, Flattened, Format, Instance, Mesh, Scene, SceneOverrides, parse_scene};
 use chainlight::table::{Column, Rows, lane_groups};
-use glam::{Vec2, Vec3};
+use glam::{DVec2, Vec3};
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -105,7 +105,7 @@ pub struct Found {
     pub distance: f32,
     pub instance: u32,
     pub primitive: u32,
-    pub uv: Vec2,
+    pub uv: DVec2,
 }
 
 impl Found {
