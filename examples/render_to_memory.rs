@@ -27,7 +27,7 @@ fn main() -> miette::Result<()> {
         println!("{}: {}", effect.effect.name(), effect.reason);
     }
 
-    let (seed, threads) = (0, 0);
+    let (seed, threads) = (0, 2);
     let mut render = Render::new(scene, plan, seed, threads)?;
     let outcome = drive(&mut render, Budget::Steps(32), &AtomicBool::new(false), &|_| {});
     let picture = render.film.develop();

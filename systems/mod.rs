@@ -71,24 +71,16 @@ pub fn build_schedules(plan: &Plan, world: &mut World) {
             schedule.configure_sets(InPlan::System(system.id).after(InPlan::System(previous)));
         }
     }
+    // The plan's order is the schedules' order, so a system's place in the plan is its place in the profile.
     let mut profile = Profile::default();
-    for mut schedule in [trace_loop, step] {
-        let first = profile.systems.len();
-        let place = |name: &str| {
-            plan.systems
-                .iter()
-                .map(|s| s.id)
-                .find(|id| name.rsplit("::").next() == Some(id.name()))
-        };
-        schedule.set_executor(TimingExecutor::new(first));
-        if schedule.initialize(world).is_ok()
-            && let Ok(systems) = schedule.systems()
-        {
-            profile.systems.extend(
-                systems
-                    .filter_map(|(_, system)| place(&system.name()))
-                    .map(SystemCost::new),
-            );
+    for (mut schedule, in_loop) in [(trace_loop, true), (step, false)] {
+        schedule.set_executor(TimingExecutor::new(profile.systems.len()));
+        let planned = plan.systems.iter().map(|system| system.id);
+        let here = planned.filter(|id| matches!(id.place(), Place::Loop(_)) == in_loop);
+        profile.systems.extend(here.map(SystemCost::new));
+        // Built now rather than at the first run, so that it can be read back.
+        if let Err(error) = schedule.initialize(world) {
+            panic!("the plan's systems are one chain, which always builds: {error}");
         }
         world.add_schedule(schedule);
     }

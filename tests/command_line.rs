@@ -159,7 +159,7 @@ fn standard_output_is_the_summary_alone_and_quiet_without_a_terminal() {
 #[test]
 fn what_cannot_be_done_is_said_before_rendering() {
     let scene = cornell();
-    let cases: [(&[&str], &[&str]); 12] = [
+    let cases: [(&[&str], &[&str]); 14] = [
         (&["render", "none.ron"], &["none.ron", "no such file"]),
         (&["render", "."], &["must end in `.ron` or `.json`"]),
         (
@@ -186,8 +186,32 @@ fn what_cannot_be_done_is_said_before_rendering() {
             &["cannot be used with"],
         ),
         (&["render", &scene, "--max-depth", "0"], &["1..=1024"]),
+        (&["render", &scene, "--threads", "1025"], &["0..=1024"]),
+        (&["profile", &scene, "--trace", "missing/a.json"], &["no such folder"]),
         (&["compare", "a.exr", "b.exr"], &["a.exr"]),
     ];
+    check_refusals(&cases);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_that_is_not_there_and_folders_that_cannot_be_written_are_said_before_rendering() {
+    let scene = cornell();
+    check_refusals(&[
+        (
+            &["render", &scene, "--size", "65536x4096"],
+            &["needs about", "available", "--size"],
+        ),
+        (
+            &["render", &scene, "--tile", "1048576", "--max-depth", "1024"],
+            &["needs about", "--tile"],
+        ),
+        (&["render", &scene, "-o", "/proc/a.exr"], &["/proc", "may write"]),
+    ]);
+}
+
+/// Each command must fail, leave nothing behind, and say all the expected parts.
+fn check_refusals(cases: &[(&[&str], &[&str])]) {
     for (arguments, expected) in cases {
         let error = fail(arguments);
         for part in expected {

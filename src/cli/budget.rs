@@ -1,4 +1,4 @@
-//! `--spp` and `--time`: how long to render.
+//! `--spp`, `--time` and `--threads`: how long to render, and on how many threads.
 
 use crate::render::Budget;
 use clap::Args;
@@ -23,6 +23,28 @@ impl BudgetArgs {
             .map(Budget::Time)
             .or(self.spp.map(Budget::Steps))
             .unwrap_or(default)
+    }
+}
+
+/// On how many threads.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct ThreadArgs {
+    /// Threads; 0 takes one per core. The picture does not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=MAX_THREADS))]
+    threads: u16,
+}
+
+/// The most threads to be asked for.
+const MAX_THREADS: i64 = 1024;
+
+impl ThreadArgs {
+    /// The number of threads, at least one.
+    #[must_use]
+    pub fn count(self) -> usize {
+        match self.threads {
+            0 => std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
+            threads => usize::from(threads),
+        }
     }
 }
 

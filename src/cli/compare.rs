@@ -5,7 +5,6 @@ use crate::stats::metrics::{Metrics, compare};
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::PathBuf;
 
 /// Compare a picture with a reference of the same size.
@@ -23,7 +22,7 @@ pub struct CompareArgs {
 /// Reads both pictures and prints what lies between them.
 ///
 /// # Errors
-/// Where a file cannot be read, the sizes differ, or nobody reads what is printed.
+/// Where a file cannot be read, or the sizes differ.
 pub fn run(args: &CompareArgs) -> Result<()> {
     super::output::print(&report(args)?)
 }

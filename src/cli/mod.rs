@@ -2,12 +2,15 @@
 
 mod budget;
 pub mod compare;
+mod interrupt;
 mod load;
+mod memory;
 mod output;
 pub mod plan;
 pub mod profile;
 pub mod render;
 mod report;
+mod target;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;

@@ -105,6 +105,8 @@ fn report<'a>(plan: &'a Plan, built: &'a Built, chains: u32) -> Report<'a> {
             );
         }
     }
+    let tables: Vec<TableRow<'_>> = built.tables.iter().filter_map(|table| table_row(plan, table)).collect();
+    let tile_bytes = tables.iter().map(|table| table.bytes).sum();
     Report {
         technique: plan.technique.name(),
         effects: effects
@@ -115,11 +117,11 @@ fn report<'a>(plan: &'a Plan, built: &'a Built, chains: u32) -> Report<'a> {
             })
             .collect(),
         systems,
-        tables: built.tables.iter().filter_map(|table| table_row(plan, table)).collect(),
+        tables,
         tile_chains: plan.tile_size,
         tile_reason: &plan.tile_reason,
-        tile_bytes: plan.tile_bytes(),
-        bytes_per_chain: plan.tile_bytes() / u64::from(plan.tile_size),
+        tile_bytes,
+        bytes_per_chain: tile_bytes / u64::from(plan.tile_size),
         tiles: chains.div_ceil(plan.tile_size),
         tracer: plan.tracer,
         tracer_reason: &plan.tracer_reason,

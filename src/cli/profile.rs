@@ -3,6 +3,8 @@
 use super::budget::BudgetArgs;
 use super::load::SceneArgs;
 use super::output::{count, print};
+use super::target::check_writable;
+use super::{interrupt, memory};
 use crate::film::write_file;
 use crate::plan::{Stage, SystemId};
 use crate::render::{Budget, Render, drive};
@@ -13,7 +15,6 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 /// How long to render where neither `--spp` nor `--time` is given.
@@ -33,8 +34,8 @@ pub struct ProfileArgs {
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
     /// Threads; times are summed over them
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    threads: usize,
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: u16,
     /// Write single runs of systems as trace events, for Perfetto or chrome://tracing
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
@@ -79,8 +80,14 @@ struct Cost {
 /// # Errors
 /// A scene that cannot be loaded, or a trace file that cannot be written.
 pub fn run(args: &ProfileArgs) -> Result<()> {
+    if let Some(path) = &args.trace {
+        check_writable(path)?;
+    }
     let loaded = args.scene.load()?;
-    let mut render = Render::new(Arc::clone(&loaded.scene), loaded.plan.clone(), args.seed, args.threads)?;
+    let threads = usize::from(args.threads);
+    memory::check(&loaded, threads)?;
+    let mut render = Render::new(Arc::clone(&loaded.scene), loaded.plan.clone(), args.seed, threads)?;
+    let interrupt = interrupt::listen()?;
     if args.trace.is_some() {
         render.for_each_world(|_, world| world.record_spans(TRACE_EVENTS));
     }
@@ -88,7 +95,7 @@ pub fn run(args: &ProfileArgs) -> Result<()> {
     let outcome = drive(
         &mut render,
         args.budget.or(Budget::Time(DEFAULT_TIME)),
-        &AtomicBool::new(false),
+        &interrupt,
         &|_| {},
     );
     if let Some(path) = &args.trace {
@@ -106,9 +113,9 @@ fn report(render: &Render, wall: Duration) -> Report {
     let (costs, counters) = (render.costs(), render.counters());
     let paths = counters.decisions;
     let total = render.busy_time().as_nanos() as u64;
-    let cost = |name, stage: Stage, runs, nanoseconds: u64, rays: u64| Cost {
+    let cost = |name, stage: &'static str, runs, nanoseconds: u64, rays: u64| Cost {
         name,
-        stage: stage.name(),
+        stage,
         runs,
         seconds: nanoseconds as f64 * 1e-9,
         share: nanoseconds as f64 / total.max(1) as f64,
@@ -126,14 +133,14 @@ fn report(render: &Render, wall: Duration) -> Report {
     let systems: Vec<Cost> = costs
         .iter()
         .filter(|c| !is_loop(c.id))
-        .map(|c| cost(c.id.name(), c.id.stage(), c.runs, c.nanoseconds, traced(c.id)))
+        .map(|c| cost(c.id.name(), c.id.stage().name(), c.runs, c.nanoseconds, traced(c.id)))
         .collect();
     let stages = Stage::ALL.map(|stage| {
         let here = || costs.iter().filter(|c| c.id.stage() == stage && !is_loop(c.id));
         let runs = here().map(|c| c.runs).sum();
         cost(
             stage.name(),
-            stage,
+            stage.name(),
             runs,
             here().map(|c| c.nanoseconds).sum(),
             here().map(|c| traced(c.id)).sum(),
@@ -154,7 +161,7 @@ fn report(render: &Render, wall: Duration) -> Report {
         systems,
         schedule: cost(
             "schedule",
-            Stage::Trace,
+            "schedule",
             counters.steps,
             total.saturating_sub(in_systems),
             0,

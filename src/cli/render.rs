@@ -1,18 +1,19 @@
 //! `render`: from a scene to a picture.
 
-use super::budget::BudgetArgs;
+use super::budget::{BudgetArgs, ThreadArgs};
 use super::load::{SceneArgs, settings};
 use super::output::{count, note, print};
 use super::report::Report;
+use super::target::check_writable;
+use super::{interrupt, memory};
 use crate::film::{PictureMetadata, ToneMap, write_exr, write_png};
 use crate::render::{Budget, Progress, Render, drive};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use miette::{IntoDiagnostic, Result, WrapErr, miette};
+use miette::{IntoDiagnostic, Result, miette};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Samples per pixel where neither `--spp` nor `--time` is given.
 pub const DEFAULT_SPP: u64 = 64;
@@ -33,9 +34,8 @@ pub struct RenderArgs {
     /// Seed of all random numbers: the same seed gives the same bytes
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Threads; 0 takes one per core. The picture does not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    threads: usize,
+    #[command(flatten)]
+    threads: ThreadArgs,
     /// Print a report as JSON on standard output
     #[arg(long)]
     json: bool,
@@ -47,10 +47,13 @@ pub struct RenderArgs {
 /// Whatever stands in the way, before rendering where it can be known then.
 pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let output = args.output.clone().unwrap_or_else(|| default_output(&args.scene.scene));
-    check_output(&output)?;
+    let png = output.with_extension("png");
+    check_output(&output, &png)?;
     let loaded = args.scene.load()?;
-    let interrupt = on_interrupt()?;
-    let mut render = Render::new(Arc::clone(&loaded.scene), loaded.plan.clone(), args.seed, args.threads)?;
+    let threads = args.threads.count();
+    memory::check(&loaded, threads)?;
+    let mut render = Render::new(Arc::clone(&loaded.scene), loaded.plan.clone(), args.seed, threads)?;
+    let interrupt = interrupt::listen()?;
     let bar = progress_bar();
     let outcome = drive(
         &mut render,
@@ -61,7 +64,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     bar.finish_and_clear();
     if outcome.steps == 0 {
         note("interrupted before the first sample: nothing was written");
-        return Ok(ExitCode::from(INTERRUPTED));
+        return Ok(ExitCode::from(interrupt::EXIT_STATUS));
     }
     let picture = render.film.develop();
     let metadata = PictureMetadata {
@@ -73,7 +76,6 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         software: concat!("chainlight ", env!("CARGO_PKG_VERSION")).to_owned(),
     };
     write_exr(&output, &picture, &metadata)?;
-    let png = output.with_extension("png");
     write_png(&png, picture.view(), ToneMap::automatic(picture.view()))?;
     let report = Report::new(
         &args.scene.scene,
@@ -91,17 +93,14 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     }
     report.warn();
     Ok(if report.interrupted {
-        ExitCode::from(INTERRUPTED)
+        ExitCode::from(interrupt::EXIT_STATUS)
     } else {
         ExitCode::SUCCESS
     })
 }
 
-/// The exit status of a program that was interrupted: 128 + SIGINT.
-const INTERRUPTED: u8 = 130;
-
 fn default_output(scene: &Path) -> PathBuf {
-    let mut name = scene.file_stem().unwrap_or(scene.as_os_str()).to_owned();
+    let mut name = scene.file_stem().unwrap_or("picture".as_ref()).to_owned();
     name.push(".exr");
     name.into()
 }
@@ -116,7 +115,7 @@ fn scene_name(scene: &Path) -> String {
 }
 
 /// Says before rendering what would go wrong after it.
-fn check_output(output: &Path) -> Result<()> {
+fn check_output(output: &Path, preview: &Path) -> Result<()> {
     if output
         .extension()
         .is_none_or(|extension| !extension.eq_ignore_ascii_case("exr"))
@@ -127,41 +126,8 @@ fn check_output(output: &Path) -> Result<()> {
             output.display()
         ));
     }
-    let folder = output
-        .parent()
-        .filter(|parent| !parent.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
-    if !folder.is_dir() {
-        return Err(miette!(
-            help = "make the folder first, or give another name with --output",
-            "{}: there is no such folder to write {} to",
-            folder.display(),
-            output.display()
-        ));
-    }
-    if output.is_dir() {
-        return Err(miette!(
-            help = "give a file's name with --output",
-            "{} is a folder",
-            output.display()
-        ));
-    }
-    Ok(())
-}
-
-/// A flag that the first Ctrl-C sets; the second ends the program at once.
-fn on_interrupt() -> Result<Arc<AtomicBool>> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let handler = Arc::clone(&flag);
-    ctrlc::set_handler(move || {
-        if handler.swap(true, Ordering::Relaxed) {
-            std::process::exit(i32::from(INTERRUPTED));
-        }
-        note("\nstopping after this step; once more to stop at once and write nothing");
-    })
-    .into_diagnostic()
-    .wrap_err("cannot listen for Ctrl-C")?;
-    Ok(flag)
+    check_writable(output)?;
+    check_writable(preview)
 }
 
 /// A bar on a terminal; hidden, and so quiet, anywhere else.

@@ -53,12 +53,14 @@ pub struct Render {
 }
 
 impl Render {
-    /// Builds the film, the threads and their worlds. `threads` 0 takes one per core.
+    /// Builds the film, the threads and their worlds; no more threads than there are tiles.
     ///
     /// # Errors
     /// A film that does not fit, or threads that cannot be started.
     pub fn new(scene: Arc<Scene>, plan: Plan, seed: u64, threads: usize) -> Result<Self, RenderError> {
         let film = Arc::new(Film::new(scene.width, scene.height, scene.lights.max_radiance())?);
+        let tiles = scene.pixel_count().div_ceil(plan.tile_size) as usize;
+        let threads = threads.clamp(1, tiles);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
@@ -106,15 +108,19 @@ impl Render {
         self.burst_in_order(steps, &order, done);
     }
 
-    /// [`burst`](Self::burst) with the tiles dealt in the given order, which must name every tile once.
+    /// [`burst`](Self::burst) with the tiles dealt in the given order, which must name every tile once; others are
+    /// passed over.
     pub fn burst_in_order(&mut self, steps: u64, order: &[usize], done: &(impl Fn(u64) + Sync)) {
         let next = AtomicUsize::new(0);
         let (chains, tile_size) = (self.chains(), self.plan.tile_size);
-        let range = self.steps..self.steps + steps;
+        let (tiles, range) = (self.tile_count(), self.steps..self.steps + steps);
         let worlds = &self.worlds;
         self.pool.broadcast(|context| {
             let mut world = lock(&worlds[context.index()]);
             while let Some(&tile) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
+                if tile >= tiles {
+                    continue;
+                }
                 let first = tile as u32 * tile_size;
                 let count = tile_size.min(chains - first);
                 world.run(first, count, range.clone());

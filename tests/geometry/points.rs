@@ -45,7 +45,7 @@ fn a_hit_on_a_triangle_is_where_the_ray_was_aimed() {
             );
             let hit = found.hit().expect("a hit");
             let (point, curved) = (flat.surface_point(hit), smooth.surface_point(hit));
-            let (hit_u, hit_v) = (f64::from(hit.uv.x), f64::from(hit.uv.y));
+            let (hit_u, hit_v) = (hit.uv.x, hit.uv.y);
             let exact = a + (b - a) * hit_u + (c - a) * hit_v;
             // The point is farther from all edges than `EDGE_INSET_UNITS`, so all that moves it is its rounding.
             assert!(
@@ -107,7 +107,10 @@ fn points_hardly_move_when_kept_off_edges() {
                 .iter()
                 .all(|&h| h > 0.125 * ((b - a).length() + (c - a).length()));
             let rounding = f64::from(f32::EPSILON) * 0.5 * position.abs().max_element();
-            assert!(!roomy || off.iter().all(|&d| d > 6.0 * rounding), "{off:?} of {rounding}");
+            assert!(
+                !roomy || off.iter().all(|&d| d > 6.0 * rounding),
+                "{off:?} of {rounding}"
+            );
         }
     }
 }
