@@ -51,7 +51,10 @@ impl Room {
     /// Segments to light samples from random points of the walls, `count` of them, with what the light sent.
     fn segments(&self, scene: &Scene, count: usize, below: f64, dice: &mut Dice) -> Vec<Line> {
         let mut segments = Vec::new();
-        while segments.len() < count {
+        for _ in 0..100 {
+            if segments.len() >= count {
+                return segments;
+            }
             let rays: Vec<Line> = (0..count)
                 .map(|_| {
                     let from = dice.point(0.5).as_dvec3();
@@ -75,7 +78,7 @@ impl Room {
                 }
             }
         }
-        segments
+        panic!("the light is hardly ever seen: {} of {count} segments", segments.len());
     }
 }
 
