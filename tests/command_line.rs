@@ -214,7 +214,7 @@ fn memory_that_is_not_there_and_folders_that_cannot_be_written_are_said_before_r
 fn check_refusals(cases: &[(&[&str], &[&str])]) {
     for (arguments, expected) in cases {
         let error = fail(arguments);
-        for part in expected {
+        for part in *expected {
             assert!(error.contains(part), "{arguments:?}: no `{part}` in: {error}");
         }
     }
