@@ -7,6 +7,7 @@
 
 mod support;
 
+use bevy_ecs::schedule::{Schedules, SingleThreadedExecutor};
 use chainlight::plan::{Place, Stage, SystemId, Technique};
 use chainlight::render::Render;
 use chainlight::scene::Scene;
@@ -78,6 +79,27 @@ fn table(name: &str, scene: &Arc<Scene>) {
     );
 }
 
+/// What the executor that keeps times costs: steps under it against steps under bevy's own, interleaved.
+fn price_of_the_clock(scene: &Arc<Scene>) {
+    let mut timed = start(scene, Technique::Pt, None);
+    let mut bare = start(scene, Technique::Pt, None);
+    bare.for_each_world(|_, tile| {
+        for (_, schedule) in tile.world_mut().resource_mut::<Schedules>().iter_mut() {
+            schedule.set_executor(SingleThreadedExecutor::new());
+        }
+    });
+    let mut ratios = Vec::new();
+    for _ in 0..4 * ROUNDS {
+        let under_clock = ns_per_path(&mut timed);
+        ratios.push(under_clock / ns_per_path(&mut bare));
+    }
+    println!(
+        "\nwith the clock {:.4} times the time without (median of {} pairs)",
+        median(ratios),
+        4 * ROUNDS
+    );
+}
+
 fn main() {
     let box_scene = cornell_box(SIZE);
     let room = bumpy_room(2_090_000, SIZE);
@@ -99,4 +121,5 @@ fn main() {
     criterion.final_summary();
     table("cornell box", &box_scene);
     table("two million triangles", &room);
+    price_of_the_clock(&box_scene);
 }

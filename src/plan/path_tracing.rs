@@ -1,7 +1,7 @@
 //! What path tracing in stages needs.
 
 use super::effect::{EffectPlan, is_on};
-use super::table::Extent;
+use super::table::{Extent, sampling_chains};
 use super::{Effect, SystemId, SystemPlan, TableKind, TablePlan};
 use crate::geometry::{
     HitDistance, HitInstance, HitPrimitive, HitUv, RayDirection, RayOrigin, SegmentTarget, SegmentTransmittance,
@@ -85,13 +85,7 @@ pub(super) fn tables(scene: &Scene, effects: &[EffectPlan]) -> Vec<TablePlan> {
 }
 
 fn chains(effects: &[EffectPlan]) -> TablePlan {
-    let mut table = TablePlan::new(TableKind::Chains, Extent::PerChain(1));
-    table
-        .column::<ChainKey>("draws are keyed by it")
-        .column::<FilmPixel>("the pixel that a step's sample counts for")
-        .column::<Contribution>("a step's sample")
-        .column::<BookedWeight>("what the decision booked")
-        .column::<Decisions>("every chain decides exactly once a step");
+    let mut table = sampling_chains();
     if is_on(effects, Effect::Emission) {
         table
             .column::<Direction>("rays are emitted along it")

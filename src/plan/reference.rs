@@ -1,12 +1,11 @@
 //! What the depth-first path tracer needs: no vertex table, and a ray queue of one lane group.
 
 use super::effect::{EffectPlan, is_on};
-use super::table::Extent;
+use super::table::{Extent, sampling_chains};
 use super::{Effect, SystemId, SystemPlan, TableKind, TablePlan};
 use crate::geometry::{
     HitDistance, HitInstance, HitPrimitive, HitUv, RayDirection, RayOrigin, SegmentTarget, SegmentTransmittance,
 };
-use crate::path::{BookedWeight, ChainKey, Contribution, Decisions, FilmPixel};
 
 pub(super) fn systems(effects: &[EffectPlan]) -> Vec<SystemPlan> {
     use SystemId::*;
@@ -23,13 +22,7 @@ pub(super) fn systems(effects: &[EffectPlan]) -> Vec<SystemPlan> {
 }
 
 pub(super) fn tables(effects: &[EffectPlan]) -> Vec<TablePlan> {
-    let mut chains = TablePlan::new(TableKind::Chains, Extent::PerChain(1));
-    chains
-        .column::<ChainKey>("draws are keyed by it")
-        .column::<FilmPixel>("the pixel that a step's sample counts for")
-        .column::<Contribution>("a step's sample")
-        .column::<BookedWeight>("what the decision booked")
-        .column::<Decisions>("every chain decides exactly once a step");
+    let chains = sampling_chains();
     if !is_on(effects, Effect::Emission) {
         return vec![chains];
     }

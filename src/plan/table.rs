@@ -1,7 +1,20 @@
 //! Tables as a plan lists them.
 
+use crate::path::{BookedWeight, ChainKey, Contribution, Decisions, FilmPixel};
 use crate::table::{Column, ColumnSpec, LANES};
 use std::fmt;
+
+/// The chain table of an estimator whose every step is an independent sample of each chain's pixel.
+pub(super) fn sampling_chains() -> TablePlan {
+    let mut table = TablePlan::new(TableKind::Chains, Extent::PerChain(1));
+    table
+        .column::<ChainKey>("draws are keyed by it")
+        .column::<FilmPixel>("the pixel that a step's sample counts for")
+        .column::<Contribution>("a step's sample")
+        .column::<BookedWeight>("what the decision booked")
+        .column::<Decisions>("every chain decides exactly once a step");
+    table
+}
 
 /// The tables of a tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

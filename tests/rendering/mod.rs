@@ -21,11 +21,19 @@ pub fn shipped(name: &str, size: u32) -> Arc<Scene> {
     )
 }
 
-/// A shipped scene with the box filter of the references.
-pub fn shipped_box_filtered(name: &str, size: u32) -> Arc<Scene> {
+/// A shipped scene with the box filter of the references, its lights scaled by `brightness`.
+pub fn box_filtered(name: &str, size: u32, brightness: f32) -> Arc<Scene> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name);
     let mut source = read_scene(&path).unwrap_or_else(|error| panic!("{}", error.plain()));
     source.description.film.filter = Default::default();
+    for emission in source
+        .description
+        .shapes
+        .iter_mut()
+        .filter_map(|shape| shape.emission.as_mut())
+    {
+        *emission = *emission * brightness;
+    }
     compile(&source, size)
 }
 
