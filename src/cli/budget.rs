@@ -7,7 +7,7 @@ use std::time::Duration;
 /// How long to render.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct BudgetArgs {
-    /// Samples per pixel [default: 64]
+    /// Samples per pixel [default: 96]
     #[arg(long, value_name = "N", conflicts_with = "time", value_parser = clap::value_parser!(u64).range(1..=u64::from(u32::MAX)))]
     spp: Option<u64>,
     /// Seconds to render; the number of samples reached is recorded, and with it --spp gives the same bytes

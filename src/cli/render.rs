@@ -16,7 +16,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 /// Samples per pixel where neither `--spp` nor `--time` is given.
-pub const DEFAULT_SPP: u64 = 64;
+pub const DEFAULT_SPP: u64 = 96;
 
 /// Steps of a progress bar.
 const BAR_STEPS: u64 = 1_000_000;
