@@ -55,7 +55,7 @@ impl Shape {
                     0 => [DVec3::X, DVec3::NEG_Z],
                     _ => dice.plane(),
                 };
-                let lift = x.cross(y) * f64::from(dice.pick(&[0.0, 1e-3, 1.0]));
+                let lift = x.cross(y) * dice.pick(&[0.0, 1e-3, 1.0]);
                 let corner = |u: f64, v: f64| ((x * u + y * v) * 1e6 + lift).as_vec3();
                 Self::Floor([corner(-1.1, -0.9), corner(1.2, -0.8), corner(-0.2, 1.3)])
             }
