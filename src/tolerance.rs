@@ -22,7 +22,8 @@ pub const LEAST_INSET_HEIGHT: f64 = 0.125;
 
 /// A box is entered if the computed entry is below the computed exit times this, the bound of Ize (2013, "Robust BVH ray
 /// traversal") under which no hit box is missed: three roundings in the entry, three in the exit, and here one more for
-/// the product with this number, rounded up to a number that f32 has. Guarded by `the_tree_finds_what_a_scan_finds`.
+/// the product with this number, rounded up to a number that f32 has. Guarded by `the_tree_finds_what_a_scan_finds` and
+/// `nothing_leaves_a_closed_mesh`.
 pub const BOX_EXIT_SLACK: f32 = 1.0 + 8.0 * F32_ROUNDING;
 
 /// A box farther than the nearest hit times this is skipped. The slack covers three roundings of the box's distance, one

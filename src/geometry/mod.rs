@@ -7,8 +7,10 @@
 
 mod leaf;
 mod octahedral;
+mod pair;
 mod queue;
 mod sphere;
+mod stack;
 mod surface;
 mod trace;
 mod tree;

@@ -2,7 +2,8 @@
 
 use super::Geometry;
 use super::queue::{HitColumns, NO_HIT, RayColumns, SegmentColumns, SegmentTransmittance};
-use super::tree::{Stack, Walk};
+use super::stack::Stack;
+use super::tree::Walk;
 use super::triangle::RayFrame;
 use crate::color::Rgb;
 use crate::table::Rows;

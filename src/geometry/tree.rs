@@ -1,43 +1,15 @@
 //! The tree over primitives: built by obvhs, kept as pairs of sibling boxes, one cache line each.
 
 use super::leaf::LeafPrimitive;
+use super::pair::{BoxRay, Pair};
+use super::stack::{Entry, Stack};
 use super::triangle::RayFrame;
-use crate::tolerance::{BOX_EXIT_SLACK, CULL_SLACK};
+use crate::tolerance::CULL_SLACK;
 use glam::Vec3;
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
-use obvhs::bvh2::node::Bvh2Node;
 use std::time::Duration;
-
-/// Two sibling boxes and where they lead.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-struct Pair {
-    /// Least (0) and largest (1) coordinate of each child, `[axis][bound][child]`.
-    bounds: [[[f32; 2]; 2]; 3],
-    /// First primitive of a leaf, or the pair of an inner child.
-    first: [u32; 2],
-    /// Primitives of a leaf; 0 for an inner child.
-    count: [u32; 2],
-}
-
-impl Pair {
-    /// Two boxes that no ray meets.
-    const EMPTY: Self = Self {
-        bounds: [[[f32::INFINITY; 2], [f32::NEG_INFINITY; 2]]; 3],
-        first: [0; 2],
-        count: [1; 2],
-    };
-
-    fn set_box(&mut self, side: usize, node: &Bvh2Node) {
-        let (min, max) = (node.aabb().min.to_array(), node.aabb().max.to_array());
-        for axis in 0..3 {
-            self.bounds[axis][0][side] = min[axis];
-            self.bounds[axis][1][side] = max[axis];
-        }
-    }
-}
 
 /// What it costs to look at two boxes, in intersections with a primitive: with it the builder weighs small leaves against
 /// a shallow tree. Measured: 1 to 2 are best for a box of 36 triangles (3: a sixth slower), 2 to 3 for 200 000 triangles.
@@ -150,109 +122,6 @@ impl Tree {
     }
 }
 
-/// A ray prepared for many boxes.
-struct BoxRay {
-    origin: [f32; 3],
-    /// One over each component of the direction.
-    inverse: [f32; 3],
-    /// Which bound of a box the ray meets first along each axis.
-    near: [usize; 3],
-}
-
-impl BoxRay {
-    #[inline]
-    fn new(ray: &RayFrame) -> Self {
-        let inverse = ray.direction.recip().as_vec3().to_array();
-        Self {
-            origin: ray.origin.as_vec3().to_array(),
-            inverse,
-            near: inverse.map(|component| usize::from(component.is_sign_negative())),
-        }
-    }
-
-    /// The distances at which the ray enters two boxes, infinity where it misses one or enters it beyond `limit`.
-    ///
-    /// 0 · ∞ (a ray inside a slab's plane, parallel to it) is not a number; every comparison is written so that it
-    /// leaves the interval as it was.
-    #[inline(always)]
-    fn distances(&self, pair: &Pair, limit: f32) -> [f32; 2] {
-        let (mut enter, mut exit) = ([0.0; 2], [f32::INFINITY; 2]);
-        for axis in 0..3 {
-            let near = pair.bounds[axis][self.near[axis] & 1];
-            let far = pair.bounds[axis][(self.near[axis] & 1) ^ 1];
-            for side in 0..2 {
-                let near = (near[side] - self.origin[axis]) * self.inverse[axis];
-                let far = (far[side] - self.origin[axis]) * self.inverse[axis];
-                enter[side] = if near > enter[side] { near } else { enter[side] };
-                exit[side] = if far < exit[side] { far } else { exit[side] };
-            }
-        }
-        let limit = limit * CULL_SLACK;
-        [0, 1].map(|side| {
-            if enter[side] <= exit[side] * BOX_EXIT_SLACK && enter[side] <= limit {
-                enter[side]
-            } else {
-                f32::INFINITY
-            }
-        })
-    }
-}
-
-#[derive(Clone, Copy, Default)]
-struct Entry {
-    first: u32,
-    count: u32,
-    distance: f32,
-}
-
-/// Boxes still to visit: a fixed array, and the heap for the rare tree that is deeper. One serves all rays of a queue.
-pub struct Stack {
-    fixed: [Entry; Self::FIXED],
-    len: usize,
-    spill: Vec<Entry>,
-}
-
-impl Default for Stack {
-    #[inline]
-    fn default() -> Self {
-        Self {
-            fixed: [Entry::default(); Self::FIXED],
-            len: 0,
-            spill: Vec::new(),
-        }
-    }
-}
-
-impl Stack {
-    const FIXED: usize = 48;
-
-    #[inline]
-    fn clear(&mut self) {
-        self.len = 0;
-        self.spill.clear();
-    }
-
-    #[inline]
-    fn push(&mut self, entry: Entry) {
-        if self.len < Self::FIXED {
-            self.fixed[self.len] = entry;
-        } else {
-            self.spill.push(entry);
-        }
-        self.len += 1;
-    }
-
-    #[inline]
-    fn pop(&mut self) -> Option<Entry> {
-        self.len = self.len.checked_sub(1)?;
-        if self.len < Self::FIXED {
-            Some(self.fixed[self.len])
-        } else {
-            self.spill.pop()
-        }
-    }
-}
-
 /// Siblings of obvhs' tree, depth first, so that a near child often lies on the next cache line.
 fn pair_up(bvh: &Bvh2) -> Vec<Pair> {
     let root = &bvh.nodes[0];
@@ -287,21 +156,6 @@ mod tests {
     use super::*;
     use crate::geometry::{Geometry, Instance, InstanceShape};
     use glam::DVec3;
-
-    #[test]
-    fn what_is_pushed_last_is_popped_first_beyond_the_fixed_part_too() {
-        let mut stack = Stack::default();
-        let entry = |first| Entry {
-            first,
-            ..Entry::default()
-        };
-        for count in [1, 47, 48, 49, 50, 200] {
-            (0..count).for_each(|first| stack.push(entry(first)));
-            stack.push(entry(count));
-            let popped: Vec<u32> = std::iter::from_fn(|| stack.pop().map(|entry| entry.first)).collect();
-            assert!(popped.into_iter().eq((0..=count).rev()));
-        }
-    }
 
     /// Triangles across the x axis at x = 0, 1, 2, ...; each is half of its box.
     fn sheets(count: u32) -> Vec<LeafPrimitive> {

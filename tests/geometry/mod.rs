@@ -4,6 +4,7 @@
 //! rate of failures below 3/n with 95 % confidence; each statistical test names its n.
 
 mod any_numbers;
+mod degenerate;
 mod dice;
 mod leaving;
 mod lights;
