@@ -128,9 +128,9 @@ fn proposals(scene: &Scene, effects: &[EffectPlan]) -> TablePlan {
         table
             .column::<VertexShadingNormal>("materials scatter about it")
             .column::<VertexMaterial>("which material scatters")
-            .column::<VertexInstance>("the path's surfaces by name")
-            .column::<VertexPrimitive>("the path's surfaces by name")
-            .column::<VertexUv>("the path's surfaces by name");
+            .column::<VertexInstance>("the path is kept by its surfaces, for what will change or replay it")
+            .column::<VertexPrimitive>("the same")
+            .column::<VertexUv>("the same");
     }
     if is_on(effects, Effect::DirectLight) {
         table.column::<VertexConnection>("light connected to");

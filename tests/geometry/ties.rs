@@ -1,4 +1,5 @@
-//! Hits at the same distance: the lowest (instance, primitive) wins, whatever the tree looks like.
+//! Hits at the same distance: the lowest (instance, primitive) wins, whatever the tree looks like. The same distance is
+//! the same f64: triangles that lie in one plane but list other corners may differ in its last bits.
 
 use super::dice::Dice;
 use super::world::{Line, Triangle, World, closest};
