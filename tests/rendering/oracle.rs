@@ -9,9 +9,11 @@
 use super::{box_filtered, picture};
 use chainlight::film::Picture;
 use chainlight::plan::Technique;
+use chainlight::scene::{ShapeKind, read_scene};
 use chainlight::stats::normal::{sidak, upper_quantile};
 use chainlight::stats::z_test::Estimate;
 use exr::prelude::read_first_flat_layer_from_file;
+use sha2::{Digest, Sha256};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use std::path::Path;
 
@@ -151,4 +153,31 @@ fn the_cornell_box_is_right_to_the_noise() {
 #[test]
 fn the_glass_box_is_right_to_the_noise() {
     agree("cornell-glass.ron");
+}
+
+/// A reference says nothing of a scene that has changed since: its hash is over the scene file and its meshes in order.
+#[test]
+fn the_references_are_of_the_scenes_as_they_are() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for name in ["cornell-box", "cornell-glass"] {
+        let path = root.join("scenes").join(name).with_extension("ron");
+        let source = read_scene(&path).unwrap_or_else(|error| panic!("{}", error.plain()));
+        let mut files = vec![path];
+        files.extend(source.description.shapes.iter().filter_map(|shape| match &shape.shape {
+            ShapeKind::Obj { file, .. } => Some(root.join("scenes").join(file)),
+            _ => None,
+        }));
+        let mut digest = Sha256::new();
+        for file in files {
+            digest.update(std::fs::read(file).expect("a shipped file"));
+        }
+        let hex: String = digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+        let described = root.join("tests/references").join(name).with_extension("json");
+        let described = std::fs::read(described).expect("a committed file");
+        let described: serde_json::Value = serde_json::from_slice(&described).expect("JSON");
+        assert_eq!(
+            described["scene_sha256"], hex,
+            "{name}: run tests/oracle/make_references.py"
+        );
+    }
 }
