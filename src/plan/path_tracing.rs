@@ -129,8 +129,8 @@ fn proposals(scene: &Scene, effects: &[EffectPlan]) -> TablePlan {
             .column::<VertexShadingNormal>("materials scatter about it")
             .column::<VertexMaterial>("which material scatters")
             .column::<VertexInstance>("the path is kept by its surfaces, for what will change or replay it")
-            .column::<VertexPrimitive>("the same")
-            .column::<VertexUv>("the same");
+            .column::<VertexPrimitive>("the path is kept by its surfaces, for what will change or replay it")
+            .column::<VertexUv>("the path is kept by its surfaces, for what will change or replay it");
     }
     if is_on(effects, Effect::DirectLight) {
         table.column::<VertexConnection>("light connected to");
