@@ -195,19 +195,8 @@ fn what_cannot_be_done_is_said_before_rendering() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn memory_that_is_not_there_and_folders_that_cannot_be_written_are_said_before_rendering() {
-    let scene = cornell();
-    check_refusals(&[
-        (
-            &["render", &scene, "--size", "65536x4096"],
-            &["needs about", "available", "--size"],
-        ),
-        (
-            &["render", &scene, "--tile", "1048576", "--max-depth", "1024"],
-            &["needs about", "--tile"],
-        ),
-        (&["render", &scene, "-o", "/proc/a.exr"], &["/proc", "may write"]),
-    ]);
+fn a_folder_that_cannot_be_written_to_is_said_before_rendering() {
+    check_refusals(&[(&["render", &cornell(), "-o", "/proc/a.exr"], &["/proc", "may write"])]);
 }
 
 /// Each command must fail, leave nothing behind, and say all the expected parts.

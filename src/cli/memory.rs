@@ -25,15 +25,20 @@ pub fn needed(plan: &Plan, pixels: u32, threads: usize) -> u64 {
 /// # Errors
 /// Too little memory.
 pub fn check(loaded: &Loaded, threads: usize) -> Result<()> {
-    let needed = needed(&loaded.plan, loaded.scene.pixel_count(), threads);
-    match available() {
+    judge(&loaded.plan, loaded.scene.pixel_count(), threads, available())
+}
+
+/// [`check`] for a given amount of available memory.
+fn judge(plan: &Plan, pixels: u32, threads: usize, available: Option<u64>) -> Result<()> {
+    let needed = needed(plan, pixels, threads);
+    match available {
         Some(available) if needed > available => Err(miette!(
             help = "render a smaller picture (--size), with fewer threads, a smaller --tile or --max-depth",
             "this render needs about {}, and {} are available: film {}, tables {} for each of {threads} threads",
             bytes(needed),
             bytes(available),
-            bytes(loaded.plan.film_bytes),
-            bytes(loaded.plan.tile_bytes())
+            bytes(plan.film_bytes),
+            bytes(plan.tile_bytes())
         )),
         _ => Ok(()),
     }
@@ -52,7 +57,48 @@ fn parse(meminfo: &str) -> Option<u64> {
 
 #[cfg(test)]
 mod tests {
-    use super::parse;
+    use super::{judge, needed, parse};
+    use crate::plan::{Plan, Technique};
+    use crate::scene::{Format, Scene, SceneOverrides, flatten, parse_scene};
+    use std::path::Path;
+
+    /// A lamp before a film of `size`, with tables for paths of `max_depth` edges in tiles of `tile` chains.
+    fn plan(size: (u32, u32), max_depth: u32, tile: u32) -> Plan {
+        let text = r#"(version: 1, camera: Perspective(origin: (0, 0, 5), target: (0, 0, 0), fov: 30),
+            film: (width: 16, height: 16), materials: {"m": Diffuse(reflectance: (1, 1, 1))},
+            shapes: [(shape: Sphere(radius: 1), material: "m", emission: (3, 2, 1))])"#;
+        let source = parse_scene("lamp.ron", text, Format::Ron, Path::new(".")).expect("a valid scene");
+        let overrides = SceneOverrides {
+            size: Some(size),
+            max_depth: Some(max_depth),
+        };
+        let flattened = flatten(&source).expect("a valid scene");
+        let scene = Scene::compile(&source.description, &flattened, overrides).expect("a valid filter");
+        Plan::new(&scene, Technique::Pt, Some(tile))
+    }
+
+    #[test]
+    fn a_film_or_tables_that_do_not_fit_are_refused_with_what_to_do() {
+        let gibibytes = |count: u64| Some(count << 30);
+        let film = plan((65536, 4096), 2, 16);
+        let error = judge(&film, 65536 * 4096, 1, gibibytes(24)).expect_err("48 GiB of film and picture");
+        assert!(
+            error.to_string().contains("24.0 GiB are available: film 32.0 GiB"),
+            "{error}"
+        );
+        assert!(error.help().is_some_and(|help| help.to_string().contains("--size")));
+        let tables = plan((16, 16), 1024, 1 << 20);
+        assert!(
+            judge(&tables, 256, 2, gibibytes(64)).is_err(),
+            "{}",
+            needed(&tables, 256, 2)
+        );
+        assert!(
+            judge(&tables, 256, 2, None).is_ok(),
+            "where nothing is known, nothing is refused"
+        );
+        assert!(judge(&plan((16, 16), 16, 1024), 256, 2, gibibytes(1)).is_ok());
+    }
 
     #[test]
     fn available_memory_is_read_in_bytes() {
