@@ -8,9 +8,10 @@
 mod support;
 
 use bevy_ecs::schedule::{Schedules, SingleThreadedExecutor};
-use chainlight::plan::{Place, Stage, SystemId, Technique};
+use chainlight::plan::{Place, Stage, Technique};
 use chainlight::render::Render;
 use chainlight::scene::Scene;
+use chainlight::systems::list::TRACE_LOOP;
 use criterion::{BenchmarkId, Criterion, Throughput};
 use std::hint::black_box;
 use std::sync::Arc;
@@ -43,36 +44,34 @@ fn table(name: &str, scene: &Arc<Scene>) {
     let costs = render.costs();
     let systems: f64 = costs
         .iter()
-        .filter(|c| c.id != SystemId::TraceLoop)
+        .filter(|c| c.spec != TRACE_LOOP)
         .map(|c| c.nanoseconds as f64)
         .sum();
     println!(
         "\n{name}: {} primitives, tile of {} chains",
         scene.geometry.primitive_count(),
-        render.plan.tile_size
+        render.plan.tile.size
     );
     println!(
         "  depth first {depth_first:.0} ns per path, staged {staged:.0}: {:.2} times as fast",
         depth_first / staged
     );
     for stage in Stage::ALL {
-        let here = costs
-            .iter()
-            .filter(|c| c.id.stage() == stage && c.id != SystemId::TraceLoop);
+        let here = costs.iter().filter(|c| c.spec.stage() == stage && c.spec != TRACE_LOOP);
         println!(
             "  {:<10} {:7.1} ns per path",
             stage.name(),
             here.map(|c| c.nanoseconds as f64).sum::<f64>() / paths
         );
     }
-    for cost in costs.iter().filter(|c| matches!(c.id.place(), Place::Loop(_))) {
-        println!("    {:<20} {:7.1}", cost.id.name(), cost.nanoseconds as f64 / paths);
+    for cost in costs.iter().filter(|c| matches!(c.spec.place(), Place::Loop(_))) {
+        println!("    {:<20} {:7.1}", cost.spec.name(), cost.nanoseconds as f64 / paths);
     }
     println!(
         "  schedule and clock {:.2} % of the time",
         100.0 * (busy - systems) / busy
     );
-    let touched = render.plan.tile_bytes() / u64::from(render.plan.tile_size);
+    let touched = render.plan.tile.bytes() / u64::from(render.plan.tile.size);
     println!(
         "  {touched} B of tables per chain, for paths of up to {} edges",
         scene.max_depth

@@ -36,6 +36,9 @@
 //!
 //! How the house is built, and why, is in `ARCHITECTURE.md`.
 
+/// The crate whose macros [`system!`] and [`columns!`] use.
+pub use bevy_ecs;
+
 pub mod camera;
 pub mod cli;
 pub mod color;

@@ -23,6 +23,7 @@
 
 pub mod accept;
 pub mod evaluate;
+pub mod list;
 pub mod propose;
 pub mod splat;
 pub mod tile;
@@ -31,88 +32,80 @@ pub mod trace;
 
 pub use timing::{Profile, Span, SystemCost};
 
-use crate::plan::{Place, Plan, SystemId};
-use bevy_ecs::schedule::{IntoScheduleConfigs, Schedule, ScheduleLabel, SystemSet};
+use crate::plan::{InPlan, Phases, SystemSpec, TilePlan};
+use bevy_ecs::schedule::{IntoScheduleConfigs, Schedule, ScheduleLabel};
 use bevy_ecs::world::World;
 use timing::TimingExecutor;
 
-/// The schedule of one step of a tile.
+/// The schedules of a tile's runs, by their phase.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Step;
+pub enum Run {
+    /// Draws independent proposals and evaluates them.
+    Bootstrap,
+    /// Draws the chosen seeds again and takes them.
+    Seed,
+    /// One step of every chain.
+    Step,
+}
+
+impl Run {
+    /// Every run.
+    pub const ALL: [Self; 3] = [Self::Bootstrap, Self::Seed, Self::Step];
+
+    /// Its phase, as systems name it.
+    #[must_use]
+    pub const fn phase(self) -> Phases {
+        match self {
+            Self::Bootstrap => Phases::BOOTSTRAP,
+            Self::Seed => Phases::SEED,
+            Self::Step => Phases::STEP,
+        }
+    }
+}
 
 /// The schedule that [`trace::trace_loop`] repeats.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TraceLoop;
 
-/// Every system is in a set of its own, by which the plan's order is kept, and in the set of its place.
-#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum InPlan {
-    /// The systems of a stage, or of a step of the trace loop.
-    At(Place),
-    /// The one system of this name.
-    System(SystemId),
-}
-
 /// Builds the schedules that `plan` asks for into `world`, and the profile that their executors keep.
 ///
 /// # Panics
 /// Never for a plan of [`Plan::new`]: its systems form one chain.
-pub fn build_schedules(plan: &Plan, world: &mut World) {
-    let mut step = Schedule::new(Step);
-    let mut trace_loop = Schedule::new(TraceLoop);
-    let (mut last_in_step, mut last_in_loop) = (None, None);
-    for system in &plan.systems {
-        let (schedule, last) = match system.id.place() {
-            Place::Stage(_) => (&mut step, &mut last_in_step),
-            Place::Loop(_) => (&mut trace_loop, &mut last_in_loop),
-        };
-        add(schedule, system.id);
-        if let Some(previous) = last.replace(system.id) {
-            schedule.configure_sets(InPlan::System(system.id).after(InPlan::System(previous)));
-        }
-    }
-    // The plan's order is the schedules' order, so a system's place in the plan is its place in the profile.
+pub fn build_schedules(plan: &TilePlan, world: &mut World) {
     let mut profile = Profile::default();
-    for (mut schedule, in_loop) in [(trace_loop, true), (step, false)] {
-        schedule.set_executor(TimingExecutor::new(profile.systems.len()));
-        let planned = plan.systems.iter().map(|system| system.id);
-        let here = planned.filter(|id| matches!(id.place(), Place::Loop(_)) == in_loop);
-        profile.systems.extend(here.map(SystemCost::new));
-        // Built now rather than at the first run, so that it can be read back.
-        if let Err(error) = schedule.initialize(world) {
-            panic!("the plan's systems are one chain, which always builds: {error}");
+    let systems = || plan.systems.iter().map(|system| system.spec);
+    build(TraceLoop, systems().filter(|s| s.is_in_loop()), &mut profile, world);
+    for run in Run::ALL {
+        // Independent estimators have neither bootstrap nor seeds.
+        if run == Run::Step || systems().any(|s| s.phases() != Phases::STEP && s.phases().has(run.phase())) {
+            let here = systems().filter(|s| !s.is_in_loop() && s.phases().has(run.phase()));
+            build(run, here, &mut profile, world);
         }
-        world.add_schedule(schedule);
     }
     world.insert_resource(profile);
 }
 
-/// The one list of systems: adding one adds its line here and in [`SystemId`].
-fn add(schedule: &mut Schedule, id: SystemId) {
-    match id {
-        SystemId::AssignPixels => place(schedule, id, propose::assign_pixels),
-        SystemId::StartCameraPaths => place(schedule, id, propose::start_camera_paths),
-        SystemId::TraceLoop => place(schedule, id, trace::trace_loop),
-        SystemId::EmitRays => place(schedule, id, trace::emit_rays),
-        SystemId::IntersectRays => place(schedule, id, trace::intersect_rays),
-        SystemId::ExtendPaths => place(schedule, id, trace::extend_paths),
-        SystemId::ConnectLights => place(schedule, id, trace::connect_lights),
-        SystemId::TransmitSegments => place(schedule, id, trace::transmit_segments),
-        SystemId::ScatterDiffuse => place(schedule, id, trace::scatter_diffuse),
-        SystemId::ScatterConductor => place(schedule, id, trace::scatter_conductor),
-        SystemId::ScatterDielectric => place(schedule, id, trace::scatter_dielectric),
-        SystemId::ContinuePaths => place(schedule, id, trace::continue_paths),
-        SystemId::TraceDepthFirst => place(schedule, id, trace::trace_depth_first),
-        SystemId::GatherContribution => place(schedule, id, evaluate::gather_contribution),
-        SystemId::AcceptAlways => place(schedule, id, accept::accept_always),
-        SystemId::SplatSamples => place(schedule, id, splat::splat_samples),
-    }
-}
-
-fn place<M>(
-    schedule: &mut Schedule,
-    id: SystemId,
-    system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
+/// Builds one schedule of `systems` in their order.
+fn build(
+    label: impl ScheduleLabel,
+    systems: impl Iterator<Item = SystemSpec>,
+    profile: &mut Profile,
+    world: &mut World,
 ) {
-    schedule.add_systems(system.in_set(InPlan::At(id.place())).in_set(InPlan::System(id)));
+    let mut schedule = Schedule::new(label);
+    // The profile's order is the schedules' order, so that the executor finds its entries by counting.
+    schedule.set_executor(TimingExecutor::new(profile.systems.len()));
+    let mut last = None;
+    for spec in systems {
+        spec.add_to(&mut schedule);
+        if let Some(previous) = last.replace(spec) {
+            schedule.configure_sets(InPlan::System(spec).after(InPlan::System(previous)));
+        }
+        profile.systems.push(SystemCost::new(spec));
+    }
+    // Built now rather than at the first run, so that it can be read back.
+    if let Err(error) = schedule.initialize(world) {
+        panic!("the plan's systems are one chain, which always builds: {error}");
+    }
+    world.add_schedule(schedule);
 }

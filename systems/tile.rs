@@ -4,9 +4,12 @@
 
 use crate::film::Film;
 use crate::path::{VERTEX_DISCRETE, VERTEX_LENS};
+use crate::plan::{Extent, TablePlan, TilePlan};
 use crate::sampling::StreamKey;
 use crate::scene::Scene;
+use crate::table::LANES;
 use bevy_ecs::resource::Resource;
+use bevy_ecs::world::World;
 use std::sync::Arc;
 
 /// The scene, shared by all tiles.
@@ -67,6 +70,76 @@ pub struct Queues {
     pub rays: usize,
     /// Segments in the ray table.
     pub segments: usize,
+}
+
+/// How deep the tables that grow with depth are, and what a deeper row is made of.
+#[derive(Resource, Clone, Debug)]
+pub struct Depths {
+    held: u32,
+    most: u32,
+    groups: u32,
+    tables: Arc<[TablePlan]>,
+}
+
+impl Depths {
+    /// The depths of the tables of `plan` as they are built.
+    #[must_use]
+    pub fn new(plan: &TilePlan) -> Self {
+        let growing = |table: &&TablePlan| matches!(table.extent, Extent::PerDepth { .. });
+        let tables: Arc<[TablePlan]> = plan.tables.iter().filter(growing).cloned().collect();
+        let bounds = |pick: fn(u32, u32) -> u32| {
+            let picked = tables.iter().filter_map(move |table| match table.extent {
+                Extent::PerDepth { held, most, .. } => Some(pick(held, most)),
+                _ => None,
+            });
+            picked.max().unwrap_or(0)
+        };
+        Self {
+            held: bounds(|held, _| held),
+            most: bounds(|_, most| most),
+            groups: plan.size / LANES as u32,
+            tables: Arc::clone(&tables),
+        }
+    }
+
+    /// The last depth that every table has room for.
+    #[must_use]
+    pub const fn held(&self) -> u32 {
+        self.held
+    }
+}
+
+/// Appends rows to the tables that grow with depth, until they have room for `depth`; twice as much as before, so that it
+/// seldom happens. Earlier rows keep their addresses, since tables are bounce-major.
+pub fn grow_tables(world: &mut World, depth: u32) {
+    let Depths {
+        held,
+        most,
+        groups,
+        tables,
+    } = world.resource::<Depths>().clone();
+    if depth <= held {
+        return;
+    }
+    let new = depth.max(2 * held).min(most);
+    for table in tables.iter() {
+        let Extent::PerDepth {
+            held: first_room,
+            most: last,
+            ..
+        } = table.extent
+        else {
+            continue;
+        };
+        let (from, to) = (held.max(first_room).min(last), new.min(last));
+        for _ in 0..(to - from) * groups {
+            let mut row = table.id.spawn(world);
+            for column in &table.columns {
+                (column.spec.insert)(&mut row);
+            }
+        }
+    }
+    world.resource_mut::<Depths>().held = new;
 }
 
 /// What a tile world has counted since it was built.

@@ -3,7 +3,7 @@
 //! bevy's own single-threaded executor keeps no times, and its tracing spans need a subscriber and string names per run.
 //! One clock reading per system run (20 to 40 ns) is all that this costs.
 
-use crate::plan::SystemId;
+use crate::plan::SystemSpec;
 use bevy_ecs::error::{BevyError, ErrorContext};
 use bevy_ecs::resource::Resource;
 use bevy_ecs::schedule::{FixedBitSet, SystemExecutor, SystemSchedule};
@@ -15,7 +15,7 @@ use std::time::Instant;
 #[derive(Clone, Copy, Debug)]
 pub struct SystemCost {
     /// Which system.
-    pub id: SystemId,
+    pub spec: SystemSpec,
     /// How often it ran.
     pub runs: u64,
     /// Wall time over all runs, in nanoseconds. The trace loop's own time includes its inner systems.
@@ -23,9 +23,9 @@ pub struct SystemCost {
 }
 
 impl SystemCost {
-    pub(super) const fn new(id: SystemId) -> Self {
+    pub(super) const fn new(spec: SystemSpec) -> Self {
         Self {
-            id,
+            spec,
             runs: 0,
             nanoseconds: 0,
         }
@@ -36,7 +36,7 @@ impl SystemCost {
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
     /// Which system.
-    pub id: SystemId,
+    pub spec: SystemSpec,
     /// When it began.
     pub start: Instant,
     /// How long it ran, in nanoseconds.
@@ -106,7 +106,7 @@ impl SystemExecutor for TimingExecutor {
                     cost.nanoseconds += nanoseconds;
                     if profile.spans.len() < profile.spans.capacity() {
                         profile.spans.push(Span {
-                            id: cost.id,
+                            spec: cost.spec,
                             start,
                             nanoseconds,
                         });
@@ -135,7 +135,7 @@ mod tests {
     fn timed(schedule: &mut Schedule, systems: usize) -> World {
         let mut world = World::new();
         world.init_resource::<Trail>();
-        let costs = vec![SystemCost::new(SystemId::AssignPixels); systems];
+        let costs = vec![SystemCost::new(crate::systems::list::ASSIGN_PIXELS); systems];
         world.insert_resource(Profile {
             systems: costs,
             spans: Vec::with_capacity(3),

@@ -60,7 +60,7 @@ fn add_spheres(flattened: &mut Flattened, triangles: usize) {
     let spheres = 64;
     // A grid of n x 2n cells is 4 n² triangles.
     let side = ((triangles / spheres) as f64 / 4.0).sqrt() as u32;
-    let mut stream = StreamKey::new(2, 0, 0).stream(Purpose::Film, 0);
+    let mut stream = StreamKey::new(2, 0, 0).stream(Purpose::FILM, 0);
     for number in 0..spheres {
         let mut draw = |low: f32, high: f32| low + (high - low) * stream.next_f32();
         let center = Vec3::new(draw(1.0, 9.0), draw(0.8, 8.0), draw(0.8, 8.0));

@@ -11,7 +11,7 @@ const PICTURE_BYTES: u64 = 64;
 /// Memory that a render takes at its peak, beside the scene: film, picture, tree, and a tile's tables per thread.
 pub fn needed(plan: &Plan, pixels: u32, threads: usize) -> u64 {
     let picture = PICTURE_BYTES * u64::from(pixels);
-    let tables = plan.tile_bytes().saturating_mul(threads as u64);
+    let tables = plan.tile.most_bytes().saturating_mul(threads as u64);
     plan.film_bytes
         .saturating_add(picture)
         .saturating_add(plan.tree_bytes)
@@ -38,7 +38,7 @@ fn judge(plan: &Plan, pixels: u32, threads: usize, available: Option<u64>) -> Re
             bytes(needed),
             bytes(available),
             bytes(plan.film_bytes),
-            bytes(plan.tile_bytes())
+            bytes(plan.tile.most_bytes())
         )),
         _ => Ok(()),
     }

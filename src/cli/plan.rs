@@ -2,14 +2,12 @@
 
 use super::load::SceneArgs;
 use super::output::{bytes, print};
-use crate::film::Film;
 use crate::plan::{Plan, Stage, TablePlan};
 use crate::render::{Built, BuiltTable, TileWorld, short};
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
 use serde::Serialize;
 use std::fmt::Write;
-use std::sync::Arc;
 
 /// Arguments of `plan`.
 #[derive(Args, Clone, Debug)]
@@ -76,12 +74,11 @@ struct ColumnRow<'a> {
 /// A scene that cannot be loaded.
 pub fn run(args: &PlanArgs) -> Result<()> {
     let loaded = args.scene.load()?;
-    // A world is built as a render would build it, but for the film, whose size is known without making it.
-    let film = Arc::new(Film::new(1, 1, 1.0)?);
-    let tile = TileWorld::new(&loaded.plan, &loaded.scene, &film, 0);
-    let built = Built::read(&tile);
+    // A world is built as a render would build it, but for the scene and the film, which only running systems look at.
+    let tile = TileWorld::new(&loaded.plan.tile, 0, |_| {});
+    let built = Built::read(&tile, &loaded.plan.tile);
     built
-        .matches(&loaded.plan)
+        .matches(&loaded.plan.tile)
         .map_err(|difference| miette!("the tables built are not those planned: {difference}"))?;
     let report = report(&loaded.plan, &built, loaded.scene.pixel_count());
     if args.json {
@@ -118,11 +115,11 @@ fn report<'a>(plan: &'a Plan, built: &'a Built, chains: u32) -> Report<'a> {
             .collect(),
         systems,
         tables,
-        tile_chains: plan.tile_size,
-        tile_reason: &plan.tile_reason,
+        tile_chains: plan.tile.size,
+        tile_reason: &plan.tile.reason,
         tile_bytes,
-        bytes_per_chain: tile_bytes / u64::from(plan.tile_size),
-        tiles: chains.div_ceil(plan.tile_size),
+        bytes_per_chain: tile_bytes / u64::from(plan.tile.size),
+        tiles: chains.div_ceil(plan.tile.size),
         tracer: plan.tracer,
         tracer_reason: &plan.tracer_reason,
         tree_bytes: plan.tree_bytes,
@@ -132,17 +129,17 @@ fn report<'a>(plan: &'a Plan, built: &'a Built, chains: u32) -> Report<'a> {
 
 fn system_row<'a>(plan: &Plan, name: &'a str, in_trace_loop: bool) -> Option<SystemRow<'a>> {
     let name = short(name);
-    let planned = plan.systems.iter().find(|system| system.id.name() == name)?;
+    let planned = plan.tile.systems.iter().find(|system| system.spec.name() == name)?;
     Some(SystemRow {
         name,
-        stage: planned.id.stage().name(),
+        stage: planned.spec.stage().name(),
         in_trace_loop,
         reason: planned.reason,
     })
 }
 
 fn table_row<'a>(plan: &Plan, built: &'a BuiltTable) -> Option<TableRow<'a>> {
-    let planned: &TablePlan = plan.tables.iter().find(|table| table.kind == built.kind)?;
+    let planned: &TablePlan = plan.tile.tables.iter().find(|table| table.id == built.id)?;
     let columns = built.columns.iter().filter_map(|column| {
         let reason = planned
             .columns
@@ -158,7 +155,7 @@ fn table_row<'a>(plan: &Plan, built: &'a BuiltTable) -> Option<TableRow<'a>> {
     let lanes = crate::table::LANES;
     let entry: usize = built.columns.iter().map(|column| column.bytes).sum();
     Some(TableRow {
-        name: planned.kind.name(),
+        name: planned.id.name(),
         rows: built.rows,
         lanes,
         bytes: (entry * built.rows * lanes) as u64,

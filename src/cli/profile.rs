@@ -6,9 +6,10 @@ use super::output::{count, print};
 use super::target::check_writable;
 use super::{interrupt, memory};
 use crate::film::write_file;
-use crate::plan::{Stage, SystemId};
+use crate::plan::{Stage, SystemSpec, Traces};
 use crate::render::{Budget, Render, drive};
 use crate::systems::Span;
+use crate::systems::list::TRACE_LOOP;
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use serde::Serialize;
@@ -123,30 +124,38 @@ fn report(render: &Render, wall: Duration) -> Report {
         rays,
         ns_per_ray: (rays > 0).then(|| nanoseconds as f64 / rays as f64),
     };
-    let traced = |id| match id {
-        SystemId::IntersectRays => counters.rays,
-        SystemId::TransmitSegments => counters.segments,
-        SystemId::TraceDepthFirst => counters.rays + counters.segments,
-        _ => 0,
+    let traced = |spec: SystemSpec| match spec.traces() {
+        Traces::Rays => counters.rays,
+        Traces::Segments => counters.segments,
+        Traces::Both => counters.rays + counters.segments,
+        Traces::Nothing => 0,
     };
-    let is_loop = |id| id == SystemId::TraceLoop;
+    let is_loop = |spec| spec == TRACE_LOOP;
     let systems: Vec<Cost> = costs
         .iter()
-        .filter(|c| !is_loop(c.id))
-        .map(|c| cost(c.id.name(), c.id.stage().name(), c.runs, c.nanoseconds, traced(c.id)))
+        .filter(|c| !is_loop(c.spec))
+        .map(|c| {
+            cost(
+                c.spec.name(),
+                c.spec.stage().name(),
+                c.runs,
+                c.nanoseconds,
+                traced(c.spec),
+            )
+        })
         .collect();
     let stages = Stage::ALL.map(|stage| {
-        let here = || costs.iter().filter(|c| c.id.stage() == stage && !is_loop(c.id));
+        let here = || costs.iter().filter(|c| c.spec.stage() == stage && !is_loop(c.spec));
         let runs = here().map(|c| c.runs).sum();
         cost(
             stage.name(),
             stage.name(),
             runs,
             here().map(|c| c.nanoseconds).sum(),
-            here().map(|c| traced(c.id)).sum(),
+            here().map(|c| traced(c.spec)).sum(),
         )
     });
-    let in_systems: u64 = costs.iter().filter(|c| !is_loop(c.id)).map(|c| c.nanoseconds).sum();
+    let in_systems: u64 = costs.iter().filter(|c| !is_loop(c.spec)).map(|c| c.nanoseconds).sum();
     Report {
         technique: render.plan.technique.name(),
         threads: render.threads(),
@@ -233,8 +242,8 @@ fn trace_events(render: &Render, origin: Instant) -> Result<Vec<u8>> {
     let mut events = Vec::new();
     render.for_each_world(|thread, world| {
         events.extend(world.profile().spans.iter().map(|span: &Span| TraceEvent {
-            name: span.id.name(),
-            cat: span.id.stage().name(),
+            name: span.spec.name(),
+            cat: span.spec.stage().name(),
             ph: "X",
             ts: span.start.saturating_duration_since(origin).as_nanos() as f64 * 1e-3,
             dur: span.nanoseconds as f64 * 1e-3,

@@ -30,7 +30,7 @@ mod tests {
 
     #[test]
     fn directions_survive_the_round_trip() {
-        let mut stream = StreamKey::new(1, 0, 0).stream(Purpose::Scatter, 0);
+        let mut stream = StreamKey::new(1, 0, 0).stream(Purpose::SCATTER, 0);
         let mut worst = 0.0_f64;
         let axes = [DVec3::X, DVec3::Y, DVec3::Z, -DVec3::X, -DVec3::Y, -DVec3::Z];
         let random = (0..10_000).map(|_| warp::uniform_sphere(stream.next_pair()).as_dvec3().normalize());

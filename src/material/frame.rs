@@ -47,7 +47,7 @@ mod tests {
 
     #[test]
     fn frames_are_orthonormal_right_handed_and_invert() {
-        let mut stream = StreamKey::new(3, 0, 0).stream(Purpose::Scatter, 0);
+        let mut stream = StreamKey::new(3, 0, 0).stream(Purpose::SCATTER, 0);
         let random = (0..1000).map(|_| warp::uniform_sphere(stream.next_pair()));
         let poles = [Vec3::Z, Vec3::NEG_Z, Vec3::new(1e-4, 0.0, -1.0).normalize(), Vec3::X];
         for normal in poles.into_iter().chain(random) {

@@ -10,15 +10,15 @@ use bevy_ecs::component::Component;
 use glam::{DVec2, Vec3};
 
 /// Marks the rows of the chain table.
-#[derive(Component, Clone, Copy, Debug)]
+#[derive(Component, Clone, Copy, Debug, Default)]
 pub struct ChainTable;
 
 /// Marks the rows of the table of proposed path vertices.
-#[derive(Component, Clone, Copy, Debug)]
+#[derive(Component, Clone, Copy, Debug, Default)]
 pub struct ProposalTable;
 
 /// Marks the rows of the ray table: one ray or segment per chain at most.
-#[derive(Component, Clone, Copy, Debug)]
+#[derive(Component, Clone, Copy, Debug, Default)]
 pub struct RayTable;
 
 /// Vertex kind: the point on the lens where the path starts.

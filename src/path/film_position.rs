@@ -10,5 +10,5 @@ use glam::Vec2;
 #[must_use]
 pub fn film_position(scene: &Scene, key: StreamKey, pixel: u32) -> Vec2 {
     let center = Vec2::new((pixel % scene.width) as f32 + 0.5, (pixel / scene.width) as f32 + 0.5);
-    center + Vec2::from_array(scene.filter.sample(key.stream(Purpose::Film, 0).next_pair()))
+    center + Vec2::from_array(scene.filter.sample(key.stream(Purpose::FILM, 0).next_pair()))
 }

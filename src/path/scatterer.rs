@@ -63,7 +63,7 @@ impl Scatterer {
     #[inline]
     #[must_use]
     pub fn connect(&self, scene: &Scene, key: StreamKey, depth: u32) -> Option<Connection> {
-        let mut stream = key.stream(Purpose::Light, depth);
+        let mut stream = key.stream(Purpose::LIGHT, depth);
         let choice = stream.next_f64();
         let light = scene.lights.sample(self.position, choice, stream.next_pair())?;
         if !self.sides_agree(light.direction) {

@@ -12,12 +12,12 @@ mod technique;
 mod tile;
 
 pub use effect::{Effect, EffectPlan};
-pub use system::{Place, Stage, SystemId, SystemPlan, TraceStep};
-pub use table::{ColumnPlan, TableKind, TablePlan};
+pub use system::{InPlan, Phases, Place, Stage, SystemPlan, SystemSpec, TraceStep, Traces};
+pub use table::{ColumnPlan, Extent, TableId, TablePlan};
 pub use technique::{Technique, UnknownTechnique};
+pub use tile::TilePlan;
 
 use crate::scene::Scene;
-use crate::table::LANES;
 
 /// What a render will do, and why.
 #[derive(Clone, Debug)]
@@ -26,14 +26,8 @@ pub struct Plan {
     pub technique: Technique,
     /// Every effect, on or off.
     pub effects: Vec<EffectPlan>,
-    /// Systems in the order in which they run.
-    pub systems: Vec<SystemPlan>,
-    /// Tables of a tile.
-    pub tables: Vec<TablePlan>,
-    /// Chains of a tile, a multiple of [`LANES`].
-    pub tile_size: u32,
-    /// Why the tile has this size.
-    pub tile_reason: String,
+    /// What every tile's world is built from.
+    pub tile: TilePlan,
     /// How rays are traced.
     pub tracer: &'static str,
     /// Why they are traced so.
@@ -49,31 +43,19 @@ impl Plan {
     #[must_use]
     pub fn new(scene: &Scene, technique: Technique, tile_size: Option<u32>) -> Self {
         let effects = effect::effects(scene);
-        let (systems, mut tables) = match technique {
+        let (systems, tables) = match technique {
             Technique::Pt => (
                 path_tracing::systems(scene, &effects),
                 path_tracing::tables(scene, &effects),
             ),
             Technique::PtReference => (reference::systems(&effects), reference::tables(&effects)),
         };
-        let (tile_size, tile_reason) = match tile_size {
-            Some(asked) => (
-                asked.clamp(1, tile::MAX_CHAINS).next_multiple_of(LANES as u32),
-                "asked for".to_owned(),
-            ),
-            None => tile::choose(&tables),
-        };
-        for table in &mut tables {
-            table.fit(tile_size);
-        }
+        let tile = TilePlan::new(systems, tables, tile_size);
         let tree_bytes = scene.geometry.tree_bytes() as u64;
         Self {
             technique,
             effects,
-            systems,
-            tables,
-            tile_size,
-            tile_reason,
+            tile,
             tracer: "binary tree, one ray after another",
             tracer_reason: format!(
                 "the only tracer so far; {} primitives",
@@ -88,11 +70,5 @@ impl Plan {
     #[must_use]
     pub fn has(&self, effect: Effect) -> bool {
         effect::is_on(&self.effects, effect)
-    }
-
-    /// Memory of one tile's tables in bytes.
-    #[must_use]
-    pub fn tile_bytes(&self) -> u64 {
-        self.tables.iter().map(TablePlan::bytes).sum()
     }
 }

@@ -2,12 +2,13 @@
 
 use super::effect::{EffectPlan, is_on};
 use super::table::{Extent, sampling_chains};
-use super::{Effect, SystemId, SystemPlan, TableKind, TablePlan};
+use super::{Effect, SystemPlan, SystemSpec, TableId, TablePlan};
 use crate::geometry::{
     HitDistance, HitInstance, HitPrimitive, HitUv, RayDirection, RayOrigin, SegmentTarget, SegmentTransmittance,
 };
 use crate::path::*;
 use crate::scene::Scene;
+use crate::systems::list::*;
 
 /// Whether paths go beyond the first surface they meet.
 fn scatters(effects: &[EffectPlan]) -> bool {
@@ -18,43 +19,42 @@ fn scatters(effects: &[EffectPlan]) -> bool {
 }
 
 pub(super) fn systems(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> {
-    use SystemId::*;
-    let mut systems = vec![SystemPlan::new(AssignPixels, "each chain samples one pixel per step")];
-    let mut add = |on: bool, id: SystemId, reason| {
+    let mut systems = vec![SystemPlan::new(ASSIGN_PIXELS, "each chain samples one pixel per step")];
+    let mut add = |on: bool, spec: SystemSpec, reason| {
         if on {
-            systems.push(SystemPlan::new(id, reason));
+            systems.push(SystemPlan::new(spec, reason));
         }
     };
     let emission = is_on(effects, Effect::Emission);
     let connects = is_on(effects, Effect::DirectLight);
-    add(emission, StartCameraPaths, "paths start at the camera");
-    add(emission, TraceLoop, "paths are traced until none waits for a ray");
-    add(emission, EmitRays, "active chains wait for a ray");
-    add(emission, IntersectRays, "rays have to meet something");
-    add(emission, ExtendPaths, "what rays meet becomes path vertices");
+    add(emission, START_CAMERA_PATHS, "paths start at the camera");
+    add(emission, TRACE_LOOP, "paths are traced until none waits for a ray");
+    add(emission, EMIT_RAYS, "active chains wait for a ray");
+    add(emission, INTERSECT_RAYS, "rays have to meet something");
+    add(emission, EXTEND_PATHS, "what rays meet becomes path vertices");
     add(
         connects,
-        ConnectLights,
+        CONNECT_LIGHTS,
         "lights are sampled from vertices that scatter with a density",
     );
     add(
         connects,
-        TransmitSegments,
+        TRANSMIT_SEGMENTS,
         "what stands between vertex and light has to be known",
     );
     add(
         is_on(effects, Effect::DiffuseReflection),
-        ScatterDiffuse,
+        SCATTER_DIFFUSE,
         "a shape has a diffuse material",
     );
     add(
         is_on(effects, Effect::SpecularReflection),
-        ScatterConductor,
+        SCATTER_CONDUCTOR,
         "a shape has a conductor material",
     );
     add(
         is_on(effects, Effect::Refraction),
-        ScatterDielectric,
+        SCATTER_DIELECTRIC,
         "a shape has a dielectric material",
     );
     let roulette = scene.max_depth > roulette::FIRST_DEPTH;
@@ -63,14 +63,14 @@ pub(super) fn systems(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> 
     } else {
         "paths go on until max_depth, before roulette"
     };
-    add(scatters(effects), ContinuePaths, reason);
+    add(scatters(effects), CONTINUE_PATHS, reason);
     add(
         emission,
-        GatherContribution,
+        GATHER_CONTRIBUTION,
         "a path's light is the sum over its vertices",
     );
-    add(true, AcceptAlways, "samples are independent: every proposal is taken");
-    add(true, SplatSamples, "samples go to the film");
+    add(true, ACCEPT_ALWAYS, "samples are independent: every proposal is taken");
+    add(true, SPLAT_SAMPLES, "samples go to the film");
     systems
 }
 
@@ -115,7 +115,7 @@ fn chains(effects: &[EffectPlan]) -> TablePlan {
 }
 
 fn proposals(scene: &Scene, effects: &[EffectPlan]) -> TablePlan {
-    let mut table = TablePlan::new(TableKind::Proposals, Extent::PerChain(scene.max_depth + 1));
+    let mut table = TablePlan::new(TableId::PROPOSALS, Extent::vertices(scene.max_depth));
     table
         .column::<VertexKind>("lens, surface, discrete")
         .column::<VertexPosition>("rays and segments start there")
@@ -139,7 +139,7 @@ fn proposals(scene: &Scene, effects: &[EffectPlan]) -> TablePlan {
 }
 
 fn rays(effects: &[EffectPlan]) -> TablePlan {
-    let mut table = TablePlan::new(TableKind::Rays, Extent::PerChain(1));
+    let mut table = TablePlan::new(TableId::RAYS, Extent::PerChain(1));
     table
         .column::<RayChain>("whose ray it is")
         .column::<RayOrigin>("where it starts")

@@ -2,22 +2,22 @@
 
 use super::effect::{EffectPlan, is_on};
 use super::table::{Extent, sampling_chains};
-use super::{Effect, SystemId, SystemPlan, TableKind, TablePlan};
+use super::{Effect, SystemPlan, TableId, TablePlan};
 use crate::geometry::{
     HitDistance, HitInstance, HitPrimitive, HitUv, RayDirection, RayOrigin, SegmentTarget, SegmentTransmittance,
 };
+use crate::systems::list::*;
 
 pub(super) fn systems(effects: &[EffectPlan]) -> Vec<SystemPlan> {
-    use SystemId::*;
-    let mut systems = vec![SystemPlan::new(AssignPixels, "each chain samples one pixel per step")];
+    let mut systems = vec![SystemPlan::new(ASSIGN_PIXELS, "each chain samples one pixel per step")];
     if is_on(effects, Effect::Emission) {
-        systems.push(SystemPlan::new(TraceDepthFirst, "whole paths, one after another"));
+        systems.push(SystemPlan::new(TRACE_DEPTH_FIRST, "whole paths, one after another"));
     }
     systems.push(SystemPlan::new(
-        AcceptAlways,
+        ACCEPT_ALWAYS,
         "samples are independent: every proposal is taken",
     ));
-    systems.push(SystemPlan::new(SplatSamples, "samples go to the film"));
+    systems.push(SystemPlan::new(SPLAT_SAMPLES, "samples go to the film"));
     systems
 }
 
@@ -26,7 +26,7 @@ pub(super) fn tables(effects: &[EffectPlan]) -> Vec<TablePlan> {
     if !is_on(effects, Effect::Emission) {
         return vec![chains];
     }
-    let mut rays = TablePlan::new(TableKind::Rays, Extent::OneGroup);
+    let mut rays = TablePlan::new(TableId::RAYS, Extent::OneGroup);
     rays.column::<RayOrigin>("where it starts")
         .column::<RayDirection>("where it goes")
         .column::<HitDistance>("the nearest hit wins")

@@ -1,4 +1,8 @@
-//! Systems as a plan lists them: by name and reason, not yet by function.
+//! Systems as a plan lists them: by name, place and reason.
+
+use bevy_ecs::schedule::{Schedule, SystemSet};
+use std::fmt;
+use std::hash::{Hash, Hasher};
 
 /// The stages of a step, in the order in which they run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -24,6 +28,8 @@ pub enum TraceStep {
     Intersect,
     /// Appends the vertices that were met.
     Extend,
+    /// Writes the primary coordinates that the new vertices will use.
+    Draw,
     /// Samples a light for every new vertex that can be connected to one.
     Connect,
     /// Finds what passes along the segments to the lights.
@@ -43,94 +49,195 @@ pub enum Place {
     Loop(TraceStep),
 }
 
-/// Every system that a plan can ask for. Its function stands in `systems/`, in the folder of its stage.
+/// In which runs of a tile's stages a system takes part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum SystemId {
-    /// Gives every chain its pixel and its random streams.
-    AssignPixels,
-    /// Starts a path on the lens of every chain.
-    StartCameraPaths,
-    /// Runs the loop of [`TraceStep`]s.
-    TraceLoop,
-    /// Writes the next ray of every active chain.
-    EmitRays,
-    /// Finds the closest hits of the ray queue.
-    IntersectRays,
-    /// Turns hits into path vertices.
-    ExtendPaths,
-    /// Samples a light at every connectable vertex.
-    ConnectLights,
-    /// Traces the segments to the sampled lights.
-    TransmitSegments,
-    /// Scatters chains that stand on diffuse materials.
-    ScatterDiffuse,
-    /// Scatters chains that stand on conductors.
-    ScatterConductor,
-    /// Scatters chains that stand on dielectrics.
-    ScatterDielectric,
-    /// Plays Russian roulette and lists who goes on.
-    ContinuePaths,
-    /// Traces whole paths, one after another.
-    TraceDepthFirst,
-    /// Sums a path's light from its vertices.
-    GatherContribution,
-    /// Takes every proposal.
-    AcceptAlways,
-    /// Adds each chain's sample to the film.
-    SplatSamples,
+pub struct Phases {
+    bits: u8,
 }
 
-impl SystemId {
+impl Phases {
+    /// Independent proposals are drawn and evaluated, for the normalization and for seeds.
+    pub const BOOTSTRAP: Self = Self { bits: 1 };
+    /// The chosen seeds are drawn again and become the chains' first states.
+    pub const SEED: Self = Self { bits: 2 };
+    /// Every chain takes one step.
+    pub const STEP: Self = Self { bits: 4 };
+    /// In all of them.
+    pub const ALL: Self = Self { bits: 7 };
+
+    /// In these and in those of `other`.
+    #[must_use]
+    pub const fn and(self, other: Self) -> Self {
+        Self {
+            bits: self.bits | other.bits,
+        }
+    }
+
+    /// Whether these have all of `other`.
+    #[must_use]
+    pub const fn has(self, other: Self) -> bool {
+        self.bits & other.bits == other.bits
+    }
+
+    /// Where systems of a place take part if nothing else is said: what traces and evaluates always, what decides once
+    /// there are states, what proposes and splats in steps alone.
+    const fn of(place: Place) -> Self {
+        match place {
+            Place::Stage(Stage::Propose | Stage::Splat) => Self::STEP,
+            Place::Stage(Stage::Accept) => Self::SEED.and(Self::STEP),
+            Place::Stage(Stage::Trace | Stage::Evaluate) | Place::Loop(_) => Self::ALL,
+        }
+    }
+}
+
+/// What of the counters a system's time is divided by, in profiles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Traces {
+    /// It traces nothing.
+    Nothing,
+    /// Rays.
+    Rays,
+    /// Segments.
+    Segments,
+    /// Rays and segments.
+    Both,
+}
+
+/// A system as plans and profiles know it: its function's name, where it runs, and how it comes into a schedule. Two
+/// systems of one name are the same. [`system!`](crate::system) makes one from a function, in this crate or any other.
+#[derive(Clone, Copy)]
+pub struct SystemSpec {
+    name: &'static str,
+    place: Place,
+    phases: Phases,
+    traces: Traces,
+    add: fn(&mut Schedule, SystemSpec),
+}
+
+/// Every system is in a set of its own, by which the plan's order is kept, and in the set of its place.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum InPlan {
+    /// The systems of a stage, or of a step of the trace loop.
+    At(Place),
+    /// The one system of this name.
+    System(SystemSpec),
+}
+
+impl SystemSpec {
+    /// The system `name` at `place`, which `add` brings into a schedule. Use [`system!`](crate::system).
+    #[must_use]
+    pub const fn new(name: &'static str, place: Place, add: fn(&mut Schedule, Self)) -> Self {
+        Self {
+            name,
+            place,
+            phases: Phases::of(place),
+            traces: Traces::Nothing,
+            add,
+        }
+    }
+
+    /// The same system, taking part in `phases`.
+    #[must_use]
+    pub const fn in_phases(self, phases: Phases) -> Self {
+        Self { phases, ..self }
+    }
+
+    /// The same system, whose time profiles divide by what it traces.
+    #[must_use]
+    pub const fn tracing(self, traces: Traces) -> Self {
+        Self { traces, ..self }
+    }
+
     /// The system's name: that of its function.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::AssignPixels => "assign_pixels",
-            Self::StartCameraPaths => "start_camera_paths",
-            Self::TraceLoop => "trace_loop",
-            Self::EmitRays => "emit_rays",
-            Self::IntersectRays => "intersect_rays",
-            Self::ExtendPaths => "extend_paths",
-            Self::ConnectLights => "connect_lights",
-            Self::TransmitSegments => "transmit_segments",
-            Self::ScatterDiffuse => "scatter_diffuse",
-            Self::ScatterConductor => "scatter_conductor",
-            Self::ScatterDielectric => "scatter_dielectric",
-            Self::ContinuePaths => "continue_paths",
-            Self::TraceDepthFirst => "trace_depth_first",
-            Self::GatherContribution => "gather_contribution",
-            Self::AcceptAlways => "accept_always",
-            Self::SplatSamples => "splat_samples",
-        }
+        self.name
     }
 
     /// Where in a step the system runs.
     #[must_use]
     pub const fn place(self) -> Place {
-        match self {
-            Self::AssignPixels | Self::StartCameraPaths => Place::Stage(Stage::Propose),
-            Self::TraceLoop | Self::TraceDepthFirst => Place::Stage(Stage::Trace),
-            Self::EmitRays => Place::Loop(TraceStep::Emit),
-            Self::IntersectRays => Place::Loop(TraceStep::Intersect),
-            Self::ExtendPaths => Place::Loop(TraceStep::Extend),
-            Self::ConnectLights => Place::Loop(TraceStep::Connect),
-            Self::TransmitSegments => Place::Loop(TraceStep::Transmit),
-            Self::ScatterDiffuse | Self::ScatterConductor | Self::ScatterDielectric => Place::Loop(TraceStep::Scatter),
-            Self::ContinuePaths => Place::Loop(TraceStep::Continue),
-            Self::GatherContribution => Place::Stage(Stage::Evaluate),
-            Self::AcceptAlways => Place::Stage(Stage::Accept),
-            Self::SplatSamples => Place::Stage(Stage::Splat),
-        }
+        self.place
+    }
+
+    /// In which phases the system takes part.
+    #[must_use]
+    pub const fn phases(self) -> Phases {
+        self.phases
+    }
+
+    /// What the system traces.
+    #[must_use]
+    pub const fn traces(self) -> Traces {
+        self.traces
+    }
+
+    /// Whether the system runs inside the trace stage's loop.
+    #[must_use]
+    pub const fn is_in_loop(self) -> bool {
+        matches!(self.place, Place::Loop(_))
     }
 
     /// The stage that the system's time counts for.
     #[must_use]
     pub const fn stage(self) -> Stage {
-        match self.place() {
+        match self.place {
             Place::Stage(stage) => stage,
             Place::Loop(_) => Stage::Trace,
         }
     }
+
+    /// Adds the system to `schedule`.
+    pub fn add_to(self, schedule: &mut Schedule) {
+        (self.add)(schedule, self);
+    }
+}
+
+impl PartialEq for SystemSpec {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for SystemSpec {}
+
+impl Hash for SystemSpec {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.name.hash(state);
+    }
+}
+
+impl fmt::Debug for SystemSpec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({:?})", self.name, self.place)
+    }
+}
+
+/// Makes a [`SystemSpec`](crate::plan::SystemSpec) of a system function: `system!(Place::Stage(Stage::Accept), decide)`,
+/// or `system!(place, module, function)` where the function stands in a module. The crate needs `bevy_ecs` among its
+/// dependencies.
+#[macro_export]
+macro_rules! system {
+    ($place:expr, $function:ident) => {
+        $crate::plan::SystemSpec::new(stringify!($function), $place, |schedule, spec| {
+            use $crate::bevy_ecs::schedule::IntoScheduleConfigs;
+            schedule.add_systems(
+                $function
+                    .in_set($crate::plan::InPlan::At(spec.place()))
+                    .in_set($crate::plan::InPlan::System(spec)),
+            );
+        })
+    };
+    ($place:expr, $module:ident, $function:ident) => {
+        $crate::plan::SystemSpec::new(stringify!($function), $place, |schedule, spec| {
+            use $crate::bevy_ecs::schedule::IntoScheduleConfigs;
+            schedule.add_systems(
+                $module::$function
+                    .in_set($crate::plan::InPlan::At(spec.place()))
+                    .in_set($crate::plan::InPlan::System(spec)),
+            );
+        })
+    };
 }
 
 impl Stage {
@@ -154,13 +261,15 @@ impl Stage {
 #[derive(Clone, Debug)]
 pub struct SystemPlan {
     /// Which.
-    pub id: SystemId,
+    pub spec: SystemSpec,
     /// Why it runs.
     pub reason: &'static str,
 }
 
 impl SystemPlan {
-    pub(super) const fn new(id: SystemId, reason: &'static str) -> Self {
-        Self { id, reason }
+    /// The system `spec`, and why it runs.
+    #[must_use]
+    pub const fn new(spec: SystemSpec, reason: &'static str) -> Self {
+        Self { spec, reason }
     }
 }

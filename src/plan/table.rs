@@ -1,12 +1,14 @@
 //! Tables as a plan lists them.
 
-use crate::path::{BookedWeight, ChainKey, Contribution, Decisions, FilmPixel};
+use crate::path::{BookedWeight, ChainKey, ChainTable, Contribution, Decisions, FilmPixel, ProposalTable, RayTable};
 use crate::table::{Column, ColumnSpec, LANES};
+use bevy_ecs::component::{Component, ComponentId};
+use bevy_ecs::world::{EntityWorldMut, World};
 use std::fmt;
 
 /// The chain table of an estimator whose every step is an independent sample of each chain's pixel.
 pub(super) fn sampling_chains() -> TablePlan {
-    let mut table = TablePlan::new(TableKind::Chains, Extent::PerChain(1));
+    let mut table = TablePlan::new(TableId::CHAINS, Extent::PerChain(1));
     table
         .column::<ChainKey>("draws are keyed by it")
         .column::<FilmPixel>("the pixel that a step's sample counts for")
@@ -16,26 +18,61 @@ pub(super) fn sampling_chains() -> TablePlan {
     table
 }
 
-/// The tables of a tile.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TableKind {
-    /// One entry per chain.
-    Chains,
-    /// One entry per vertex of a proposed path and chain, bounce-major.
-    Proposals,
-    /// One entry per ray or segment in flight.
-    Rays,
+/// A table by name: the marker that tells its rows from others. Two tables of one name are the same.
+#[derive(Clone, Copy)]
+pub struct TableId {
+    name: &'static str,
+    spawn: for<'w> fn(&'w mut World) -> EntityWorldMut<'w>,
+    marker: fn(&World) -> Option<ComponentId>,
 }
 
-impl TableKind {
+impl TableId {
+    /// One entry per chain.
+    pub const CHAINS: Self = Self::of::<ChainTable>("chains");
+    /// One entry per vertex of a proposed path and chain, bounce-major.
+    pub const PROPOSALS: Self = Self::of::<ProposalTable>("proposal vertices");
+    /// One entry per ray or segment in flight.
+    pub const RAYS: Self = Self::of::<RayTable>("rays");
+
+    /// The table whose rows are marked with `Marker`.
+    #[must_use]
+    pub const fn of<Marker: Component + Default>(name: &'static str) -> Self {
+        Self {
+            name,
+            spawn: |world| world.spawn(Marker::default()),
+            marker: |world| world.component_id::<Marker>(),
+        }
+    }
+
     /// The table's name as plans print it.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Chains => "chains",
-            Self::Proposals => "proposal vertices",
-            Self::Rays => "rays",
-        }
+        self.name
+    }
+
+    /// The component that marks its rows, once a world knows it.
+    #[must_use]
+    pub fn marker(self, world: &World) -> Option<ComponentId> {
+        (self.marker)(world)
+    }
+
+    /// Spawns a row without columns.
+    pub fn spawn(self, world: &mut World) -> EntityWorldMut<'_> {
+        (self.spawn)(world)
+    }
+}
+
+impl PartialEq for TableId {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for TableId {}
+
+impl fmt::Debug for TableId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
     }
 }
 
@@ -44,17 +81,69 @@ impl TableKind {
 pub enum Extent {
     /// So many per chain of the tile.
     PerChain(u32),
+    /// One per chain and depth, from the depth `first` on. The table has room for some depths when it is built, and rows
+    /// are appended for deeper ones when a path first gets there: bounce-major addresses stay what they are.
+    PerDepth {
+        /// The first depth that has an entry.
+        first: u32,
+        /// The last depth that there is room for at first.
+        held: u32,
+        /// The last depth that there can ever be.
+        most: u32,
+    },
     /// One lane group, whatever the tile.
     OneGroup,
+}
+
+/// The depth that tables have room for at first: beyond it, few paths go.
+const FIRST_ROOM: u32 = 8;
+
+impl Extent {
+    /// One entry per path vertex, the lens included.
+    #[must_use]
+    pub fn vertices(max_depth: u32) -> Self {
+        Self::from_depth(0, max_depth)
+    }
+
+    /// One entry per depth in `first..=most`.
+    #[must_use]
+    pub fn from_depth(first: u32, most: u32) -> Self {
+        Self::PerDepth {
+            first,
+            held: most.min(FIRST_ROOM).max(first),
+            most: most.max(first),
+        }
+    }
+
+    /// Entries per chain when the tile is built.
+    #[must_use]
+    pub const fn entries(self) -> u32 {
+        match self {
+            Self::PerChain(entries) => entries,
+            Self::PerDepth { first, held, .. } => held + 1 - first,
+            Self::OneGroup => 0,
+        }
+    }
+
+    /// The most entries per chain that there can be.
+    #[must_use]
+    pub const fn most_entries(self) -> u32 {
+        match self {
+            Self::PerDepth { first, most, .. } => most + 1 - first,
+            other => other.entries(),
+        }
+    }
 }
 
 /// A table of a plan.
 #[derive(Clone, Debug)]
 pub struct TablePlan {
     /// Which.
-    pub kind: TableKind,
+    pub id: TableId,
     /// Its entries, relative to the tile.
     pub extent: Extent,
+    /// Whether it holds something from one step to the next, and so is saved with its tile.
+    pub is_state: bool,
     /// Lane-group rows; 0 until the tile's size is known.
     pub rows: u32,
     /// Its columns.
@@ -77,30 +166,47 @@ impl fmt::Debug for ColumnPlan {
 }
 
 impl TablePlan {
-    pub(super) const fn new(kind: TableKind, extent: Extent) -> Self {
+    /// A table without columns, which nothing outlives a step in.
+    #[must_use]
+    pub const fn new(id: TableId, extent: Extent) -> Self {
         Self {
-            kind,
+            id,
             extent,
+            is_state: false,
             rows: 0,
             columns: Vec::new(),
         }
     }
 
-    /// Adds column `C`.
-    pub(super) fn column<C: Column>(&mut self, reason: &'static str) -> &mut Self {
-        self.columns.push(ColumnPlan {
-            spec: ColumnSpec::of::<C>(),
-            reason,
-        });
+    /// The same table, holding state from one step to the next.
+    #[must_use]
+    pub fn holding_state(self) -> Self {
+        Self { is_state: true, ..self }
+    }
+
+    /// Adds column `C`, unless the table has it.
+    pub fn column<C: Column>(&mut self, reason: &'static str) -> &mut Self {
+        let spec = ColumnSpec::of::<C>();
+        if !self.has::<C>() {
+            self.columns.push(ColumnPlan { spec, reason });
+        }
         self
+    }
+
+    /// Whether the table has column `C`.
+    #[must_use]
+    pub fn has<C: Column>(&self) -> bool {
+        self.columns
+            .iter()
+            .any(|column| (column.spec.type_name)() == std::any::type_name::<C>())
     }
 
     /// Fixes the number of rows for a tile of `chains` chains.
     pub(super) fn fit(&mut self, chains: u32) {
         let groups = chains / LANES as u32;
         self.rows = match self.extent {
-            Extent::PerChain(entries) => entries * groups,
             Extent::OneGroup => 1,
+            extent => extent.entries() * groups,
         };
     }
 
@@ -110,9 +216,16 @@ impl TablePlan {
         self.columns.iter().map(|column| column.spec.bytes).sum()
     }
 
-    /// Bytes of the whole table.
+    /// Bytes of the whole table as it is built.
     #[must_use]
     pub fn bytes(&self) -> u64 {
         self.entry_bytes() as u64 * u64::from(self.rows) * LANES as u64
+    }
+
+    /// Bytes of the whole table when it has grown as far as it can.
+    #[must_use]
+    pub fn most_bytes(&self) -> u64 {
+        let entries = u64::from(self.extent.entries().max(1));
+        self.bytes() / entries * u64::from(self.extent.most_entries().max(1))
     }
 }

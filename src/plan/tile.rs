@@ -1,6 +1,59 @@
-//! The size of a tile: as many chains as keep the tables that a step touches inside a core's cache.
+//! A tile: its systems, its tables, and its size, as many chains as keep the tables that a step touches inside a core's
+//! cache.
 
-use super::table::{Extent, TablePlan};
+use super::system::SystemPlan;
+use super::table::TablePlan;
+use crate::table::LANES;
+
+/// What a tile's world is built from, and nothing else.
+#[derive(Clone, Debug)]
+pub struct TilePlan {
+    /// Systems in the order in which they run: by place, and in one place as they were listed.
+    pub systems: Vec<SystemPlan>,
+    /// Tables.
+    pub tables: Vec<TablePlan>,
+    /// Chains that the tables have room for, a multiple of [`LANES`].
+    pub size: u32,
+    /// Why the tile has this size.
+    pub reason: String,
+}
+
+impl TilePlan {
+    /// Plans a tile of `systems` and `tables` for `size` chains, rounded up to whole lane groups; if none is given, for as
+    /// many as fit the cache.
+    #[must_use]
+    pub fn new(mut systems: Vec<SystemPlan>, mut tables: Vec<TablePlan>, size: Option<u32>) -> Self {
+        systems.sort_by_key(|system| system.spec.place());
+        let (size, reason) = match size {
+            Some(asked) => (
+                asked.clamp(1, MAX_CHAINS).next_multiple_of(LANES as u32),
+                "asked for".to_owned(),
+            ),
+            None => choose(&tables),
+        };
+        for table in &mut tables {
+            table.fit(size);
+        }
+        Self {
+            systems,
+            tables,
+            size,
+            reason,
+        }
+    }
+
+    /// Memory of the tile's tables as they are built, in bytes.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        self.tables.iter().map(TablePlan::bytes).sum()
+    }
+
+    /// Memory of the tile's tables when paths have made them grow as far as they can, in bytes.
+    #[must_use]
+    pub fn most_bytes(&self) -> u64 {
+        self.tables.iter().map(TablePlan::most_bytes).sum()
+    }
+}
 
 /// The most chains of a tile.
 pub const MAX_CHAINS: u32 = 1 << 20;
@@ -13,7 +66,7 @@ const TYPICAL_VERTICES: u32 = crate::path::roulette::FIRST_DEPTH + 1;
 const RANGE: (u32, u32) = (64, 4096);
 
 /// Chooses a power of two, and says why.
-pub(super) fn choose(tables: &[TablePlan]) -> (u32, String) {
+fn choose(tables: &[TablePlan]) -> (u32, String) {
     let bytes: usize = tables.iter().map(touched_bytes).sum();
     let fitting = (CACHE_BUDGET / bytes.max(1)) as u32;
     let size =
@@ -29,8 +82,5 @@ pub(super) fn choose(tables: &[TablePlan]) -> (u32, String) {
 
 /// Bytes per chain that a step typically touches.
 fn touched_bytes(table: &TablePlan) -> usize {
-    match table.extent {
-        Extent::PerChain(entries) => table.entry_bytes() * entries.min(TYPICAL_VERTICES) as usize,
-        Extent::OneGroup => 0,
-    }
+    table.entry_bytes() * table.extent.most_entries().min(TYPICAL_VERTICES) as usize
 }

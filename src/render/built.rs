@@ -1,9 +1,8 @@
 //! What was really built, read back from a tile's world.
 
 use super::TileWorld;
-use crate::path::{ChainTable, ProposalTable, RayTable};
-use crate::plan::{Plan, TableKind};
-use crate::systems::{Step, TraceLoop};
+use crate::plan::{Phases, TableId, TilePlan};
+use crate::systems::{Run, TraceLoop};
 use crate::table::LANES;
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::schedule::{ScheduleLabel, Schedules};
@@ -13,7 +12,7 @@ use bevy_ecs::world::World;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BuiltTable {
     /// Which, by its marker.
-    pub kind: TableKind,
+    pub id: TableId,
     /// Lane-group rows.
     pub rows: usize,
     /// Its columns, sorted by name; markers are not columns.
@@ -47,20 +46,15 @@ pub struct Built {
 }
 
 impl Built {
-    /// Reads `tile` back.
+    /// Reads back `tile`, which was built from `plan`.
     #[must_use]
-    pub fn read(tile: &TileWorld) -> Self {
+    pub fn read(tile: &TileWorld, plan: &TilePlan) -> Self {
         let world = tile.world();
-        let marker = |kind| match kind {
-            TableKind::Chains => world.component_id::<ChainTable>(),
-            TableKind::Proposals => world.component_id::<ProposalTable>(),
-            TableKind::Rays => world.component_id::<RayTable>(),
-        };
-        let kinds = [TableKind::Chains, TableKind::Proposals, TableKind::Rays];
-        let markers: Vec<Option<ComponentId>> = kinds.into_iter().map(marker).collect();
+        let known: Vec<TableId> = plan.tables.iter().map(|table| table.id).collect();
+        let markers: Vec<Option<ComponentId>> = known.iter().map(|id| id.marker(world)).collect();
         let mut built = Self {
             tables: Vec::new(),
-            step: system_names(world, Step),
+            step: system_names(world, Run::Step),
             trace_loop: system_names(world, TraceLoop),
             resources: Vec::new(),
             strays: Vec::new(),
@@ -70,14 +64,14 @@ impl Built {
             let columns = components.iter().filter(|id| !markers.contains(&Some(**id)));
             let mut columns: Vec<BuiltColumn> = columns.filter_map(|id| column(world, *id)).collect();
             columns.sort();
-            let kind = kinds
-                .into_iter()
+            let table = known
+                .iter()
                 .zip(&markers)
                 .find(|(_, id)| id.is_some_and(|id| components.contains(&id)));
-            match kind {
-                Some((kind, _)) => {
+            match table {
+                Some((id, _)) => {
                     built.tables.push(BuiltTable {
-                        kind,
+                        id: *id,
                         rows: archetype.len() as usize,
                         columns,
                     });
@@ -92,7 +86,7 @@ impl Built {
         }
         built
             .tables
-            .sort_by_key(|table| kinds.iter().position(|kind| *kind == table.kind));
+            .sort_by_key(|table| known.iter().position(|id| *id == table.id));
         built
     }
 
@@ -101,7 +95,7 @@ impl Built {
     ///
     /// # Errors
     /// The first difference.
-    pub fn matches(&self, plan: &Plan) -> Result<(), String> {
+    pub fn matches(&self, plan: &TilePlan) -> Result<(), String> {
         if let Some(stray) = self.strays.first() {
             return Err(format!("{stray} is in no table"));
         }
@@ -109,14 +103,10 @@ impl Built {
             let built = self
                 .tables
                 .iter()
-                .filter(|built| built.kind == table.kind)
+                .filter(|built| built.id == table.id)
                 .collect::<Vec<_>>();
             let [built] = built.as_slice() else {
-                return Err(format!(
-                    "{} archetypes hold the table {}",
-                    built.len(),
-                    table.kind.name()
-                ));
+                return Err(format!("{} archetypes hold the table {}", built.len(), table.id.name()));
             };
             let mut planned: Vec<(&str, usize)> = table
                 .columns
@@ -128,7 +118,7 @@ impl Built {
             if planned != real || built.rows != table.rows as usize {
                 return Err(format!(
                     "table {}: planned {planned:?}, built {real:?}",
-                    table.kind.name()
+                    table.id.name()
                 ));
             }
         }
@@ -140,9 +130,9 @@ impl Built {
             ));
         }
         let planned = |in_loop: bool| {
-            let systems = plan.systems.iter().map(|system| system.id);
-            let here = systems.filter(|id| matches!(id.place(), crate::plan::Place::Loop(_)) == in_loop);
-            here.map(|id| id.name()).collect::<Vec<_>>()
+            let systems = plan.systems.iter().map(|system| system.spec);
+            let here = systems.filter(|s| s.is_in_loop() == in_loop && (in_loop || s.phases().has(Phases::STEP)));
+            here.map(|s| s.name()).collect::<Vec<_>>()
         };
         for (built, in_loop) in [(&self.step, false), (&self.trace_loop, true)] {
             let names: Vec<&str> = built.iter().map(|name| short(name)).collect();

@@ -9,10 +9,10 @@ pub use driver::{Budget, Outcome, Progress, Stop, drive};
 pub use tile_world::TileWorld;
 
 use crate::film::{Film, FilmError};
-use crate::plan::{Plan, SystemId};
+use crate::plan::{Plan, SystemSpec};
 use crate::scene::Scene;
 use crate::systems::SystemCost;
-use crate::systems::tile::Counters;
+use crate::systems::tile::{Counters, FilmRef, SceneRef};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -59,13 +59,18 @@ impl Render {
     /// A film that does not fit, or threads that cannot be started.
     pub fn new(scene: Arc<Scene>, plan: Plan, seed: u64, threads: usize) -> Result<Self, RenderError> {
         let film = Arc::new(Film::new(scene.width, scene.height, scene.lights.max_radiance())?);
-        let tiles = scene.pixel_count().div_ceil(plan.tile_size) as usize;
+        let tiles = scene.pixel_count().div_ceil(plan.tile.size) as usize;
         let threads = threads.clamp(1, tiles);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .map_err(|source| RenderError::Threads { threads, source })?;
-        let world = |_| Mutex::new(TileWorld::new(&plan, &scene, &film, seed));
+        let world = |_| {
+            Mutex::new(TileWorld::new(&plan.tile, seed, |world| {
+                world.insert_resource(SceneRef(Arc::clone(&scene)));
+                world.insert_resource(FilmRef(Arc::clone(&film)));
+            }))
+        };
         let worlds = (0..pool.current_num_threads()).map(world).collect();
         Ok(Self {
             scene,
@@ -98,7 +103,7 @@ impl Render {
     /// Tiles of the whole render.
     #[must_use]
     pub fn tile_count(&self) -> usize {
-        self.chains().div_ceil(self.plan.tile_size) as usize
+        self.chains().div_ceil(self.plan.tile.size) as usize
     }
 
     /// Runs `steps` more steps of every chain, all tiles to the same step; `done` hears of every tile that has finished,
@@ -112,7 +117,7 @@ impl Render {
     /// passed over.
     pub fn burst_in_order(&mut self, steps: u64, order: &[usize], done: &(impl Fn(u64) + Sync)) {
         let next = AtomicUsize::new(0);
-        let (chains, tile_size) = (self.chains(), self.plan.tile_size);
+        let (chains, tile_size) = (self.chains(), self.plan.tile.size);
         let (tiles, range) = (self.tile_count(), self.steps..self.steps + steps);
         let worlds = &self.worlds;
         self.pool.broadcast(|context| {
@@ -144,7 +149,7 @@ impl Render {
         let mut total: Vec<SystemCost> = Vec::new();
         for world in &self.worlds {
             for cost in &lock(world).profile().systems {
-                match total.iter_mut().find(|sum| sum.id == cost.id) {
+                match total.iter_mut().find(|sum| sum.spec == cost.spec) {
                     Some(sum) => {
                         sum.runs += cost.runs;
                         sum.nanoseconds += cost.nanoseconds;
@@ -153,8 +158,8 @@ impl Render {
                 }
             }
         }
-        let position = |id: SystemId| self.plan.systems.iter().position(|system| system.id == id);
-        total.sort_by_key(|cost| position(cost.id));
+        let position = |spec: SystemSpec| self.plan.tile.systems.iter().position(|system| system.spec == spec);
+        total.sort_by_key(|cost| position(cost.spec));
         total
     }
 

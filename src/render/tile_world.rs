@@ -1,14 +1,10 @@
 //! A tile's world: tables and schedules exactly as the plan lists them.
 
-use crate::film::Film;
-use crate::path::{ChainTable, ProposalTable, RayTable};
-use crate::plan::{Plan, TableKind};
-use crate::scene::Scene;
-use crate::systems::tile::{Counters, FilmRef, Queues, SceneRef, TilePlace};
-use crate::systems::{Profile, Step, build_schedules};
+use crate::plan::TilePlan;
+use crate::systems::tile::{Counters, Depths, Queues, TilePlace};
+use crate::systems::{Profile, Run, build_schedules};
 use bevy_ecs::world::World;
 use std::ops::Range;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// One bevy world with the tables and schedules of a plan, through which tiles pass.
@@ -18,34 +14,30 @@ pub struct TileWorld {
 }
 
 impl TileWorld {
-    /// Builds the tables and the schedules that `plan` lists.
+    /// Builds the tables and the schedules that `plan` lists, and lets `insert` add the resources that its systems read.
     #[must_use]
-    pub fn new(plan: &Plan, scene: &Arc<Scene>, film: &Arc<Film>, seed: u64) -> Self {
+    pub fn new(plan: &TilePlan, seed: u64, insert: impl FnOnce(&mut World)) -> Self {
         let mut world = World::new();
         for table in &plan.tables {
             for _ in 0..table.rows {
-                let mut row = match table.kind {
-                    TableKind::Chains => world.spawn(ChainTable),
-                    TableKind::Proposals => world.spawn(ProposalTable),
-                    TableKind::Rays => world.spawn(RayTable),
-                };
+                let mut row = table.id.spawn(&mut world);
                 for column in &table.columns {
                     (column.spec.insert)(&mut row);
                 }
             }
         }
-        world.insert_resource(SceneRef(Arc::clone(scene)));
-        world.insert_resource(FilmRef(Arc::clone(film)));
         let place = TilePlace {
             seed,
             first_chain: 0,
             chains: 0,
-            capacity: plan.tile_size,
+            capacity: plan.size,
             step: 0,
         };
         world.insert_resource(place);
+        world.insert_resource(Depths::new(plan));
         world.init_resource::<Queues>();
         world.init_resource::<Counters>();
+        insert(&mut world);
         build_schedules(plan, &mut world);
         Self {
             world,
@@ -55,12 +47,17 @@ impl TileWorld {
 
     /// Runs the given steps of the tile whose first chain is `first_chain`.
     pub fn run(&mut self, first_chain: u32, chains: u32, steps: Range<u64>) {
-        let start = Instant::now();
         for step in steps {
-            let mut place = self.world.resource_mut::<TilePlace>();
-            (place.first_chain, place.chains, place.step) = (first_chain, chains, step);
-            self.world.run_schedule(Step);
+            self.run_once(Run::Step, first_chain, chains, step);
         }
+    }
+
+    /// Runs the stages once, in the phase of `run`.
+    pub fn run_once(&mut self, run: Run, first_chain: u32, chains: u32, step: u64) {
+        let start = Instant::now();
+        let mut place = self.world.resource_mut::<TilePlace>();
+        (place.first_chain, place.chains, place.step) = (first_chain, chains, step);
+        self.world.run_schedule(run);
         self.busy += start.elapsed();
     }
 

@@ -10,16 +10,39 @@ use rand_pcg::Pcg32;
 
 /// What a draw is for. Every system that draws has a purpose of its own, so that no two draw the same numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
-pub enum Purpose {
-    /// Where on the film: offset inside the reconstruction filter.
-    Film = 0,
+pub struct Purpose(u32);
+
+impl Purpose {
+    /// Where on the film.
+    pub const FILM: Self = Self(0);
     /// Choice of a light and of a point on it, for the vertex at the given depth.
-    Light = 1,
+    pub const LIGHT: Self = Self(1);
     /// Choice of a scattered direction at the vertex of the given depth.
-    Scatter = 2,
+    pub const SCATTER: Self = Self(2);
     /// Russian roulette after the vertex of the given depth.
-    Roulette = 3,
+    pub const ROULETTE: Self = Self(3);
+    /// Choice of a mutation.
+    pub const MUTATION: Self = Self(4);
+    /// Whether to take a proposal.
+    pub const ACCEPT: Self = Self(5);
+    /// How far a small step moves the coordinates of the given depth.
+    pub const PERTURB: Self = Self(6);
+    /// Choice of the seeds among the samples of a group's bootstrap.
+    pub const RESAMPLE: Self = Self(7);
+
+    /// A purpose of a system outside this crate, by a name that no other system uses: a hash of it (FNV-1a), apart from all
+    /// of the above.
+    #[must_use]
+    pub const fn named(name: &str) -> Self {
+        let bytes = name.as_bytes();
+        let mut hash = 0x811C_9DC5_u32;
+        let mut i = 0;
+        while i < bytes.len() {
+            hash = (hash ^ bytes[i] as u32).wrapping_mul(0x0100_0193);
+            i += 1;
+        }
+        Self(hash | 0x8000_0000)
+    }
 }
 
 /// The part of a key that one chain's step has in common: (seed, chain, step), mixed.
@@ -75,7 +98,7 @@ impl StreamKey {
     #[inline]
     #[must_use]
     pub fn stream(self, purpose: Purpose, depth: u32) -> Stream {
-        let named = ((purpose as u64) << 32) | u64::from(depth);
+        let named = ((purpose.0 as u64) << 32) | u64::from(depth);
         let state = mix(self.base ^ named.wrapping_add(1).wrapping_mul(WEYL));
         Stream {
             generator: Pcg32::new(state, mix(self.chain ^ WEYL)),
@@ -130,13 +153,13 @@ mod tests {
                 .generator
                 .next_u32()
         };
-        let reference = first(1, 2, 3, Purpose::Light, 4);
-        assert_eq!(reference, first(1, 2, 3, Purpose::Light, 4));
-        assert_ne!(reference, first(2, 2, 3, Purpose::Light, 4));
-        assert_ne!(reference, first(1, 3, 3, Purpose::Light, 4));
-        assert_ne!(reference, first(1, 2, 4, Purpose::Light, 4));
-        assert_ne!(reference, first(1, 2, 3, Purpose::Scatter, 4));
-        assert_ne!(reference, first(1, 2, 3, Purpose::Light, 5));
+        let reference = first(1, 2, 3, Purpose::LIGHT, 4);
+        assert_eq!(reference, first(1, 2, 3, Purpose::LIGHT, 4));
+        assert_ne!(reference, first(2, 2, 3, Purpose::LIGHT, 4));
+        assert_ne!(reference, first(1, 3, 3, Purpose::LIGHT, 4));
+        assert_ne!(reference, first(1, 2, 4, Purpose::LIGHT, 4));
+        assert_ne!(reference, first(1, 2, 3, Purpose::SCATTER, 4));
+        assert_ne!(reference, first(1, 2, 3, Purpose::LIGHT, 5));
     }
 
     #[test]

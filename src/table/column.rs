@@ -1,12 +1,14 @@
 //! Columns: the component types of tables, their accessors, and how a plan names and spawns them.
 
 use super::LaneValue;
-use bevy_ecs::component::{Component, Mutable};
-use bevy_ecs::world::EntityWorldMut;
-use bytemuck::Zeroable;
+use bevy_ecs::change_detection::ContiguousMut;
+use bevy_ecs::component::{Component, ComponentId, Mutable};
+use bevy_ecs::query::QueryBuilder;
+use bevy_ecs::world::{EntityWorldMut, World};
+use bytemuck::Pod;
 
 /// A column of a table: a component that holds one lane group of some value.
-pub trait Column: Component<Mutability = Mutable> + Zeroable {
+pub trait Column: Component<Mutability = Mutable> + Pod {
     /// What one chain (or ray) has in this column.
     type Value: LaneValue;
     /// The column's name, as plans print it.
@@ -47,6 +49,8 @@ pub struct ColumnSpec {
     pub type_name: fn() -> &'static str,
     /// Gives a row this column, zeroed.
     pub insert: for<'a, 'w> fn(&'a mut EntityWorldMut<'w>),
+    /// Calls a function with the bytes of the column, in the table whose rows have the given marker.
+    pub bytes_of: fn(&mut World, ComponentId, &mut dyn FnMut(&mut [u8])),
 }
 
 impl ColumnSpec {
@@ -60,11 +64,22 @@ impl ColumnSpec {
             insert: |row| {
                 row.insert(C::zeroed());
             },
+            bytes_of: |world, marker, visit| {
+                let mut column = QueryBuilder::<&mut C>::new(world).with_id(marker).build();
+                if let Ok(tables) = column.query_mut(world).contiguous_iter_mut() {
+                    for table in tables {
+                        visit(bytemuck::cast_slice_mut(
+                            ContiguousMut::bypass_change_detection_split(table).0,
+                        ));
+                    }
+                }
+            },
         }
     }
 }
 
-/// Declares columns: `columns! { /// What it holds. pub Position: Vec3; }`.
+/// Declares columns: `columns! { /// What it holds. pub Position: Vec3; }`. The crate needs `bevy_ecs` and `bytemuck` (with
+/// `derive`) among its dependencies.
 #[macro_export]
 macro_rules! columns {
     ($($(#[$doc:meta])* pub $name:ident : $value:ty;)*) => {$(

@@ -28,7 +28,7 @@ pub fn continue_paths(
         let scale = if scales.is_empty() { 1.0 } else { scales.at(chain) };
         let survival = roulette::survival(depth, throughput, scale);
         if survival < 1.0 {
-            let mut stream = place.key(chain, keys.at(chain)).stream(Purpose::Roulette, depth);
+            let mut stream = place.key(chain, keys.at(chain)).stream(Purpose::ROULETTE, depth);
             if stream.next_f32() >= survival {
                 continue;
             }

@@ -104,7 +104,7 @@ impl Tracer<'_> {
                 radiance += throughput * (connection.value * passed);
             }
             let outcome = scatterer.scatter(|wi| {
-                let mut stream = key.stream(Purpose::Scatter, depth);
+                let mut stream = key.stream(Purpose::SCATTER, depth);
                 match model {
                     MaterialKind::Diffuse => scene.materials.sample_diffuse(point.material, wi, stream.next_pair()),
                     MaterialKind::Conductor => scene.materials.sample_conductor(point.material, wi),
@@ -119,7 +119,7 @@ impl Tracer<'_> {
             let survival = roulette::survival(depth, judged, scale);
             let mut ratio = outcome.ratio;
             if survival < 1.0 {
-                if key.stream(Purpose::Roulette, depth).next_f32() >= survival {
+                if key.stream(Purpose::ROULETTE, depth).next_f32() >= survival {
                     break;
                 }
                 ratio = ratio / survival;

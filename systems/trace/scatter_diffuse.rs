@@ -19,7 +19,7 @@ pub fn scatter_diffuse(
     let scene = &*scene.0;
     let list = list.rows();
     let keys = keys.rows();
-    let stream = |chain: usize, depth| place.key(chain, keys.at(chain)).stream(Purpose::Scatter, depth);
+    let stream = |chain: usize, depth| place.key(chain, keys.at(chain)).stream(Purpose::SCATTER, depth);
     let count = std::mem::take(&mut queues.diffuse);
     outcomes.scatter(
         &place,

@@ -8,7 +8,7 @@ pub struct Dice(Stream);
 
 impl Dice {
     pub fn new(seed: u64) -> Self {
-        Self(StreamKey::new(seed, 0, 0).stream(Purpose::Scatter, 0))
+        Self(StreamKey::new(seed, 0, 0).stream(Purpose::SCATTER, 0))
     }
 
     /// In [0, 1).

@@ -1,7 +1,6 @@
 //! The tables and schedules of a tile are exactly those of the plan.
 
 use super::{inline, shipped};
-use chainlight::film::Film;
 use chainlight::plan::{Effect, Plan, Technique};
 use chainlight::render::{Built, TileWorld, short};
 use chainlight::scene::{Scene, read_scene};
@@ -10,8 +9,7 @@ use std::sync::Arc;
 
 fn built(scene: &Arc<Scene>, technique: Technique) -> (Plan, Built) {
     let plan = Plan::new(scene, technique, None);
-    let film = Arc::new(Film::new(1, 1, 1.0).expect("one pixel"));
-    let built = Built::read(&TileWorld::new(&plan, scene, &film, 0));
+    let built = Built::read(&TileWorld::new(&plan.tile, 0, |_| {}), &plan.tile);
     (plan, built)
 }
 
@@ -51,13 +49,13 @@ fn what_is_built_is_what_was_planned() {
     for technique in Technique::ALL {
         for scene in ["cornell-box.ron", "cornell-glass.ron"] {
             let (plan, built) = built(&shipped(scene, 8), technique);
-            assert_eq!(built.matches(&plan), Ok(()), "{scene} {technique}");
+            assert_eq!(built.matches(&plan.tile), Ok(()), "{scene} {technique}");
         }
         for emission in ["", ", emission: (1, 1, 1)"] {
             for max_depth in [1, 2, 5, 6, 64] {
                 let scene = box_with("Diffuse(reflectance: (1, 1, 1))", emission, max_depth);
                 let (plan, built) = built(&scene, technique);
-                assert_eq!(built.matches(&plan), Ok(()), "{emission} {max_depth} {technique}");
+                assert_eq!(built.matches(&plan.tile), Ok(()), "{emission} {max_depth} {technique}");
             }
         }
     }
@@ -66,11 +64,11 @@ fn what_is_built_is_what_was_planned() {
 #[test]
 fn a_world_that_differs_from_its_plan_is_noticed() {
     let (mut plan, built) = built(&shipped("cornell-glass.ron", 8), Technique::Pt);
-    plan.tables[1].columns.pop();
-    assert!(built.matches(&plan).is_err());
+    plan.tile.tables[1].columns.pop();
+    assert!(built.matches(&plan.tile).is_err());
     let (mut plan, built) = self::built(&shipped("cornell-glass.ron", 8), Technique::Pt);
-    plan.systems.swap(3, 4);
-    assert!(built.matches(&plan).is_err());
+    plan.tile.systems.swap(3, 4);
+    assert!(built.matches(&plan.tile).is_err());
 }
 
 #[test]
@@ -84,8 +82,8 @@ fn no_column_owns_heap_memory_and_no_resource_is_a_table() {
         .iter()
         .filter(|name| name.starts_with("chainlight"))
         .map(|name| short(name));
-    // The scene and the film are shared by all tiles; the profile has one entry per system; the rest is plain.
-    let known = ["FilmRef", "SceneRef", "Profile", "Queues", "Counters", "TilePlace"];
+    // The profile has one entry per system, the depths one per table that grows; the rest is plain.
+    let known = ["Profile", "Queues", "Counters", "TilePlace", "Depths"];
     assert_eq!(ours.collect::<BTreeSet<_>>(), BTreeSet::from(known));
     fn is_plain<T: Copy>() {}
     is_plain::<chainlight::systems::tile::TilePlace>();

@@ -50,27 +50,27 @@ fn every_kind() -> Vec<Neighbours> {
     vec![
         neighbours("chains", |i, j| {
             let (chain, step) = place(i);
-            keyed(1, 2 * chain + j, step, Purpose::Film, 0)
+            keyed(1, 2 * chain + j, step, Purpose::FILM, 0)
         }),
         neighbours("steps", |i, j| {
             let (chain, step) = place(i);
-            keyed(1, chain, 2 * step + j, Purpose::Film, 0)
+            keyed(1, chain, 2 * step + j, Purpose::FILM, 0)
         }),
         neighbours("depths", |i, j| {
-            keyed(1, i % 4096, i / 65_536, Purpose::Scatter, 2 * (i / 4096 % 16) + j)
+            keyed(1, i % 4096, i / 65_536, Purpose::SCATTER, 2 * (i / 4096 % 16) + j)
         }),
-        neighbours("seeds", |i, j| keyed(2 * (i / 4096) + j, i % 4096, 0, Purpose::Film, 0)),
-        across("purposes film and light", Purpose::Film, Purpose::Light),
-        across("purposes light and scatter", Purpose::Light, Purpose::Scatter),
-        across("purposes scatter and roulette", Purpose::Scatter, Purpose::Roulette),
+        neighbours("seeds", |i, j| keyed(2 * (i / 4096) + j, i % 4096, 0, Purpose::FILM, 0)),
+        across("purposes film and light", Purpose::FILM, Purpose::LIGHT),
+        across("purposes light and scatter", Purpose::LIGHT, Purpose::SCATTER),
+        across("purposes scatter and roulette", Purpose::SCATTER, Purpose::ROULETTE),
         // The same numbers in another part of the key.
         neighbours("chain for step", |i, j| {
             let (chain, step) = (i % 1024, 1024 + i / 1024);
             let (chain, step) = if j == 0 { (chain, step) } else { (step, chain) };
-            keyed(1, chain, step, Purpose::Film, 0)
+            keyed(1, chain, step, Purpose::FILM, 0)
         }),
         neighbours("first and later chains", |i, j| {
-            keyed(1, i + j * (1 << 31), 0, Purpose::Film, 0)
+            keyed(1, i + j * (1 << 31), 0, Purpose::FILM, 0)
         }),
     ]
 }
