@@ -7,23 +7,31 @@
 //! Pixels are row-major: index `y * width + x`, with (0, 0) at the top left, x to the right and y down.
 
 mod accumulate;
+mod blocks;
 mod develop;
+mod develop_groups;
 mod exr_channels;
 mod exr_file;
 mod exr_read;
 mod filter;
 mod fixed;
+mod group_film;
 mod picture;
 mod png_file;
+mod saved;
 mod tally;
 mod wide;
 mod write;
 
 pub use accumulate::{Film, Splat};
+pub use blocks::BlockGrid;
+pub use develop_groups::{block_means, block_means_of, block_variances, develop_groups};
 pub use exr_file::{PictureMetadata, encode_exr, write_exr};
 pub use exr_read::{ExrPicture, ReadError, decode_exr, read_exr};
 pub use filter::{Filter, FilterError};
+pub use group_film::GroupFilm;
 pub use picture::{ImageView, Picture};
 pub use png_file::{ToneMap, encode_png, write_png};
+pub use saved::SavedFilmError;
 pub use tally::{FilmError, Tally};
 pub use write::{WriteError, write_file};
