@@ -51,13 +51,7 @@ pub fn develop_groups(films: &[&GroupFilm], scales: &[f64], weight: f32) -> Resu
         error.push(Rgb::new(r.1 as f32, g.1 as f32, b.1 as f32));
     }
     let weight = vec![weight; rgb.len()];
-    Ok(Picture {
-        width: size.0,
-        height: size.1,
-        rgb,
-        error,
-        weight,
-    })
+    Ok(Picture::new(size.0, size.1, rgb, error, weight))
 }
 
 /// The mean of values and its standard error, in two passes. Everything is taken from the first value on, so that values
