@@ -79,13 +79,7 @@ mod tests {
     fn write(path: &Path, width: u32, value: f32) -> PathBuf {
         let black = vec![Rgb::BLACK; width as usize];
         let rgb = vec![Rgb::splat(value); width as usize];
-        let picture = Picture {
-            width,
-            height: 1,
-            rgb,
-            error: black,
-            weight: vec![1.0; width as usize],
-        };
+        let picture = Picture::new(width, 1, rgb, black, vec![1.0; width as usize]);
         write_exr(path, &picture, &PictureMetadata::default()).expect("written");
         path.to_owned()
     }

@@ -74,6 +74,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         seed: args.seed,
         steps: outcome.steps,
         software: concat!("chainlight ", env!("CARGO_PKG_VERSION")).to_owned(),
+        ..PictureMetadata::default()
     };
     write_exr(&output, &picture, &metadata)?;
     write_png(&png, picture.view(), ToneMap::automatic(picture.view()))?;

@@ -87,6 +87,11 @@ impl Film {
     /// # Errors
     /// Where a side is zero, or there is no memory for 128 bytes a pixel.
     pub fn new(width: u32, height: u32, max_radiance: f32) -> Result<Self, FilmError> {
+        Self::with_unit(width, height, Unit::at_least(max_radiance))
+    }
+
+    /// [`Film::new`] for a unit that is known.
+    pub(super) fn with_unit(width: u32, height: u32, unit: Unit) -> Result<Self, FilmError> {
         let too_large = || FilmError::TooLarge {
             width,
             height,
@@ -96,7 +101,6 @@ impl Film {
         if pixels == 0 {
             return Err(FilmError::Empty { width, height });
         }
-        let unit = Unit::at_least(max_radiance);
         let mut stripes = Vec::new();
         for first in (0..pixels).step_by(1 << STRIPE_BITS) {
             let length = (pixels - first).min(1 << STRIPE_BITS) as usize;
@@ -220,6 +224,14 @@ impl Film {
         }
     }
 
+    /// Puts other counts in place of the film's.
+    pub(super) fn set_tally(&self, tally: &Tally) {
+        self.non_finite.store(tally.non_finite, Ordering::Relaxed);
+        self.outside.store(tally.outside, Ordering::Relaxed);
+        self.saturated.store(tally.saturated, Ordering::Relaxed);
+        self.vanished.store(tally.vanished, Ordering::Relaxed);
+    }
+
     /// Splats and samples that were left out altogether.
     #[must_use]
     pub fn rejected(&self) -> u64 {
@@ -231,6 +243,16 @@ impl Film {
         for stripe in &self.stripes {
             lock(stripe).iter().for_each(&mut f);
         }
+    }
+
+    /// Puts what `next` gives in place of every pixel's sums, in order, until it fails.
+    pub(super) fn try_set_pixels<E>(&self, mut next: impl FnMut() -> Result<PixelSums, E>) -> Result<(), E> {
+        for stripe in &self.stripes {
+            for pixel in lock(stripe).iter_mut() {
+                *pixel = next()?;
+            }
+        }
+        Ok(())
     }
 }
 

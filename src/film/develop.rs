@@ -29,13 +29,14 @@ impl Film {
 
     fn picture(&self, samples: impl Fn(&PixelSums) -> u64, scale: f64) -> Picture {
         let pixels = self.width() as usize * self.height() as usize;
-        let mut picture = Picture {
-            width: self.width(),
-            height: self.height(),
-            rgb: Vec::with_capacity(pixels),
-            error: Vec::with_capacity(pixels),
-            weight: Vec::with_capacity(pixels),
-        };
+        let lists = (Vec::with_capacity(pixels), Vec::with_capacity(pixels));
+        let mut picture = Picture::new(
+            self.width(),
+            self.height(),
+            lists.0,
+            lists.1,
+            Vec::with_capacity(pixels),
+        );
         let exponent = self.unit().exponent();
         self.for_each_pixel(|pixel| {
             let n = samples(pixel);

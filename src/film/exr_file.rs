@@ -1,9 +1,12 @@
 //! Pictures as OpenEXR files: colours, errors, weights and how they were made.
 //!
 //! One part with dotted channel names: `R`, `G`, `B` (the layer viewers show), `error.R`, `error.G`, `error.B` and
-//! `weight.Y`, all 32-bit floats, ZIP-compressed scan lines. The metadata are text attributes. The bytes are a function
+//! `weight.Y`, then those of the picture's further layers; all 32-bit floats, ZIP-compressed scan lines. The metadata are
+//! text attributes. The bytes are a function
 //! of the picture and its metadata alone: no date, lines in order, and attributes in order too ([`sort_attributes`]).
 
+use super::layer::check_layers;
+use super::metadata::PictureMetadata;
 use super::picture::Picture;
 use super::write::{WriteError, write_file};
 use crate::color::Rgb;
@@ -14,40 +17,10 @@ use exr::prelude::{
 use std::io::Cursor;
 use std::path::Path;
 
-/// How a picture was made: enough to make it again, and nothing that differs between two makings.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct PictureMetadata {
-    /// The scene's name or description.
-    pub scene: String,
-    /// The rendering technique: `pt`, `mlt`, ...
-    pub technique: String,
-    /// The settings, as text.
-    pub settings: String,
-    /// The seed of every random number.
-    pub seed: u64,
-    /// Steps taken: samples per pixel, or mutations per pixel.
-    pub steps: u64,
-    /// Program and version; stored as the standard attribute `software`.
-    pub software: String,
-}
-
-impl PictureMetadata {
-    /// The attributes beside `software`, as they are named in the file.
-    fn attributes(&self) -> [(&'static str, String); 5] {
-        [
-            ("scene", self.scene.clone()),
-            ("technique", self.technique.clone()),
-            ("settings", self.settings.clone()),
-            ("seed", self.seed.to_string()),
-            ("steps", self.steps.to_string()),
-        ]
-    }
-}
-
 /// Writes `picture` to `path`, whole or not at all.
 ///
 /// # Errors
-/// Where the picture has no pixel, or the file cannot be written.
+/// As [`encode_exr`], or where the file cannot be written.
 pub fn write_exr(path: &Path, picture: &Picture, metadata: &PictureMetadata) -> Result<(), WriteError> {
     let bytes = encode_exr(picture, metadata).map_err(|reason| WriteError::Encode {
         path: path.to_owned(),
@@ -60,7 +33,8 @@ pub fn write_exr(path: &Path, picture: &Picture, metadata: &PictureMetadata) -> 
 /// The bytes of `picture` as an OpenEXR file.
 ///
 /// # Errors
-/// Where the picture has no pixel, or lists of another length than its sides say; the reason in words.
+/// Where the picture has no pixel, or lists of another length than its sides say, or where a further layer or an extra
+/// attribute has a name that is taken or cannot be one; the reason in words.
 pub fn encode_exr(picture: &Picture, metadata: &PictureMetadata) -> Result<Vec<u8>, String> {
     let pixels = picture.width as usize * picture.height as usize;
     if pixels == 0 || [picture.rgb.len(), picture.error.len(), picture.weight.len()] != [pixels; 3] {
@@ -69,6 +43,7 @@ pub fn encode_exr(picture: &Picture, metadata: &PictureMetadata) -> Result<Vec<u
             picture.width, picture.height
         ));
     }
+    check_layers(&picture.layers, pixels)?;
     let plane = |pixels: &[Rgb], channel: fn(&Rgb) -> f32| FlatSamples::F32(pixels.iter().map(channel).collect());
     let channels: [(&str, FlatSamples); 7] = [
         ("R", plane(&picture.rgb, |c| c.r)),
@@ -79,16 +54,19 @@ pub fn encode_exr(picture: &Picture, metadata: &PictureMetadata) -> Result<Vec<u
         ("error.B", plane(&picture.error, |c| c.b)),
         ("weight.Y", FlatSamples::F32(picture.weight.clone())),
     ];
+    let further = picture.layers.iter().flat_map(|layer| layer.planes());
+    // Sorted below, by names that are all different: the order of the layers does not show.
     let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = channels
         .into_iter()
         .map(|(name, samples)| AnyChannel::new(name, samples))
+        .chain(further.map(|(name, samples)| AnyChannel::new(name.as_str(), FlatSamples::F32(samples))))
         .collect();
 
     let mut attributes = LayerAttributes {
         software_name: Some(text(&metadata.software)),
         ..Default::default()
     };
-    for (name, value) in metadata.attributes() {
+    for (name, value) in metadata.attributes()? {
         attributes.other.insert(text(name), AttributeValue::Text(text(&value)));
     }
     let size = (picture.width as usize, picture.height as usize);
@@ -133,7 +111,8 @@ fn sort_attributes(file: &mut [u8]) -> Option<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::film::{decode_exr, read_exr};
+    use crate::film::{LayerChannels, decode_exr, read_exr};
+    use exr::prelude::{ReadChannels, ReadLayers};
 
     /// A picture whose lines compress badly enough to matter, with odd values among them.
     fn picture(width: u32, height: u32) -> Picture {
@@ -143,13 +122,8 @@ mod tests {
             .map(|i| Rgb::new(value(i, 1), value(i, 2), -value(i, 3)))
             .collect();
         rgb[0].g = f32::INFINITY;
-        Picture {
-            width,
-            height,
-            rgb,
-            error: (0..pixels).map(|i| Rgb::splat(value(i, 4))).collect(),
-            weight: (0..pixels).map(|i| i as f32).collect(),
-        }
+        let error = (0..pixels).map(|i| Rgb::splat(value(i, 4))).collect();
+        Picture::new(width, height, rgb, error, (0..pixels).map(|i| i as f32).collect())
     }
 
     fn metadata() -> PictureMetadata {
@@ -160,6 +134,7 @@ mod tests {
             seed: u64::MAX,
             steps: 1024,
             software: "chainlight 0.1.0".into(),
+            extra: vec![],
         }
     }
 
@@ -174,7 +149,7 @@ mod tests {
         assert_eq!(back.rgb, picture.rgb);
         assert_eq!(back.error.as_ref(), Some(&picture.error));
         assert_eq!(back.weight.as_ref(), Some(&picture.weight));
-        for (name, value) in metadata.attributes() {
+        for (name, value) in metadata.attributes().expect("sound names") {
             assert_eq!(back.metadata[name], value);
         }
         assert_eq!(back.metadata["software"], metadata.software);
@@ -224,17 +199,69 @@ mod tests {
     }
 
     #[test]
+    fn further_layers_and_attributes_come_back_and_their_order_does_not_show() {
+        let mut picture = picture(5, 3);
+        let plain = encode_exr(&picture, &metadata()).expect("encoded");
+        let shine: Vec<f32> = (0..15).map(|i| i as f32 * 0.1).collect();
+        let caustic: Vec<Rgb> = (0..15).map(|i| Rgb::new(i as f32, 0.5, -1.0)).collect();
+        // One sorts before `error`, one between it and `weight`.
+        picture = picture
+            .with_layer("shine", LayerChannels::Y(shine.clone()))
+            .with_layer("caustic", LayerChannels::Rgb(caustic.clone()));
+        let metadata = metadata().with("groups", "16").with("acceptance", "0.25 of «large»");
+        let bytes = encode_exr(&picture, &metadata).expect("encoded");
+        assert!(bytes != plain);
+
+        let image = exr::prelude::read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .first_valid_layer()
+            .all_attributes()
+            .from_buffered(Cursor::new(&bytes))
+            .expect("an OpenEXR file");
+        let list = &image.layer_data.channel_data.list;
+        let channel = |name: &str| {
+            let channel = list.iter().find(|c| c.name == *name).expect("the channel");
+            channel.sample_data.values_as_f32().collect::<Vec<f32>>()
+        };
+        assert_eq!(list.len(), 7 + 4);
+        assert_eq!(channel("shine.Y"), shine);
+        assert_eq!(channel("caustic.R"), caustic.iter().map(|c| c.r).collect::<Vec<_>>());
+        assert_eq!(
+            (channel("caustic.G"), channel("caustic.B")),
+            (vec![0.5; 15], vec![-1.0; 15])
+        );
+
+        let back = decode_exr(&bytes).expect("read");
+        assert_eq!((&back.rgb, back.error.as_ref()), (&picture.rgb, Some(&picture.error)));
+        assert_eq!(back.metadata["groups"], "16");
+        assert_eq!(back.metadata["acceptance"], "0.25 of «large»");
+
+        picture.layers.reverse();
+        let mut turned = metadata;
+        turned.extra.reverse();
+        assert!(encode_exr(&picture, &turned).expect("encoded") == bytes);
+    }
+
+    #[test]
+    fn layers_and_attributes_that_cannot_be_written_are_refused() {
+        let long = picture(2, 2).with_layer("a", LayerChannels::Y(vec![0.0; 5]));
+        assert!(encode_exr(&long, &metadata()).is_err_and(|e| e.contains("5 values for 4 pixels")));
+        let taken = metadata().with("seed", "1");
+        assert!(encode_exr(&picture(2, 2), &taken).is_err_and(|e| e.contains("attribute named seed")));
+        // The longest names that are allowed are written and read.
+        let fits = picture(2, 2).with_layer("l".repeat(29), LayerChannels::Y(vec![0.0; 4]));
+        let bytes = encode_exr(&fits, &metadata().with("n".repeat(31), "x")).expect("encoded");
+        assert_eq!(decode_exr(&bytes).expect("read").metadata[&"n".repeat(31)], "x");
+    }
+
+    #[test]
     fn a_picture_that_is_not_is_refused() {
         let mut short = picture(4, 4);
         short.weight.pop();
         assert!(encode_exr(&short, &metadata()).is_err());
-        let empty = Picture {
-            width: 0,
-            height: 0,
-            rgb: vec![],
-            error: vec![],
-            weight: vec![],
-        };
+        let empty = Picture::new(0, 0, vec![], vec![], vec![]);
         let error = write_exr(Path::new("x.exr"), &empty, &metadata()).expect_err("empty");
         assert!(error.to_string().contains("x.exr"), "{error}");
         assert!(decode_exr(b"").is_err());

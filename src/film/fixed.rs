@@ -42,6 +42,11 @@ impl Unit {
         }
     }
 
+    /// The unit with this binary logarithm, where [`Unit::at_least`] makes one.
+    pub fn from_exponent(exponent: i32) -> Option<Self> {
+        (-149..=128).contains(&exponent).then_some(Self { exponent })
+    }
+
     /// log₂ of the unit.
     pub const fn exponent(self) -> i32 {
         self.exponent
@@ -121,6 +126,11 @@ impl SquareSum {
     /// Whether the sum has left its range.
     pub fn is_pinned(self) -> bool {
         self == Self::PINNED
+    }
+
+    /// The sum with these limbs, least significant first.
+    pub const fn from_limbs(limbs: [u64; 3]) -> Self {
+        Self(limbs)
     }
 
     /// The limbs, least significant first.

@@ -1,5 +1,6 @@
 //! A developed picture, and a borrowed look at the colours of any picture.
 
+use super::layer::{LayerChannels, PictureLayer};
 use crate::color::Rgb;
 
 /// What a film shows: per pixel a colour, its standard error and the samples behind it. Row-major, top left first.
@@ -16,9 +17,34 @@ pub struct Picture {
     pub error: Vec<Rgb>,
     /// Samples of the pixel.
     pub weight: Vec<f32>,
+    /// Further values that a technique gives; none for most.
+    pub layers: Vec<PictureLayer>,
 }
 
 impl Picture {
+    /// A picture without further layers.
+    #[must_use]
+    pub const fn new(width: u32, height: u32, rgb: Vec<Rgb>, error: Vec<Rgb>, weight: Vec<f32>) -> Self {
+        Self {
+            width,
+            height,
+            rgb,
+            error,
+            weight,
+            layers: Vec::new(),
+        }
+    }
+
+    /// The picture with one layer more.
+    #[must_use]
+    pub fn with_layer(mut self, name: impl Into<String>, channels: LayerChannels) -> Self {
+        self.layers.push(PictureLayer {
+            name: name.into(),
+            channels,
+        });
+        self
+    }
+
     /// A look at the colours.
     #[must_use]
     pub fn view(&self) -> ImageView<'_> {
