@@ -1,6 +1,6 @@
 //! The systems of this crate as plans name them: one line each, in the order of the stages.
 
-use super::{accept, evaluate, propose, splat, trace};
+use super::{accept, bootstrap, evaluate, propose, splat, trace};
 use crate::plan::{Phases, Place, Stage, SystemSpec, TraceStep, Traces};
 use crate::system;
 
@@ -9,7 +9,13 @@ const TRACE: Place = Place::Stage(Stage::Trace);
 const EVALUATE: Place = Place::Stage(Stage::Evaluate);
 const ACCEPT: Place = Place::Stage(Stage::Accept);
 const SPLAT: Place = Place::Stage(Stage::Splat);
+const DRAW: Place = Place::Loop(TraceStep::Draw);
 const SCATTER: Place = Place::Loop(TraceStep::Scatter);
+
+/// Phases that draw independent proposals.
+const DRAWS: Phases = Phases::BOOTSTRAP.and(Phases::SEED);
+/// Phases that take proposals over.
+const TAKES: Phases = Phases::SEED.and(Phases::STEP);
 
 macro_rules! list {
     ($($(#[$doc:meta])* $name:ident = $place:expr, $module:ident :: $function:ident $(, $method:ident ($argument:expr))*;)*) => {
@@ -18,6 +24,30 @@ macro_rules! list {
 }
 
 list! {
+    /// Gives every chain the key of its sample in a round of the bootstrap.
+    KEY_SAMPLES = PROPOSE, bootstrap::key_samples, in_phases(Phases::BOOTSTRAP);
+    /// Lists every chain for the independent mutation.
+    START_INDEPENDENT = PROPOSE, bootstrap::start_independent, in_phases(DRAWS);
+    /// Writes f(y)/T(y) of every sample of a bootstrap.
+    WEIGH_SAMPLES = EVALUATE, bootstrap::weigh_samples, in_phases(Phases::BOOTSTRAP);
+
+    /// Gives every chain the key of a new step.
+    KEY_CHAINS = PROPOSE, propose::key_chains;
+    /// Chooses a mutation for every chain.
+    CHOOSE_MUTATION = PROPOSE, propose::choose_mutation;
+    /// Draws where chains that take a large step start.
+    PROPOSE_LARGE_STEPS = PROPOSE, propose::propose_large_steps, in_phases(Phases::ALL);
+    /// Draws the coordinates of their vertices.
+    DRAW_LARGE_STEPS = DRAW, propose::draw_large_steps;
+    /// Moves where chains that take a small step start.
+    PROPOSE_SMALL_STEPS = PROPOSE, propose::propose_small_steps;
+    /// Moves the coordinates of their vertices.
+    DRAW_SMALL_STEPS = DRAW, propose::draw_small_steps;
+    /// Starts chains that stay where they are.
+    PROPOSE_IDENTITIES = PROPOSE, propose::propose_identities;
+    /// Copies the coordinates of their vertices.
+    DRAW_IDENTITIES = DRAW, propose::draw_identities;
+
     /// Gives every chain its pixel and its random streams.
     ASSIGN_PIXELS = PROPOSE, propose::assign_pixels;
     /// Starts a path on the lens of every chain.
@@ -48,6 +78,22 @@ list! {
 
     /// Sums a path's light from its vertices.
     GATHER_CONTRIBUTION = EVALUATE, evaluate::gather_contribution;
+    /// Writes the target and the splats of every proposal.
+    EVALUATE_TARGETS = EVALUATE, evaluate::evaluate_targets;
+    /// Adds the choice of the mutation to the densities.
+    WEIGH_CHOICES = EVALUATE, evaluate::weigh_choices, in_phases(Phases::STEP);
+
+    /// Decides for every chain whether it takes its proposal.
+    DECIDE = ACCEPT, accept::decide;
+    /// Takes the coordinates of accepted proposals over.
+    TAKE_COORDINATES = ACCEPT, accept::take_coordinates;
+    /// Counts where chains are.
+    COUNT_VISITS = ACCEPT, accept::count_visits, in_phases(Phases::STEP);
+    /// Adds both states of every decision to the film, by expectation.
+    SPLAT_STATES = SPLAT, splat::splat_states;
+    /// Takes the splats of accepted proposals over.
+    TAKE_SPLATS = SPLAT, splat::take_splats, in_phases(TAKES);
+
     /// Takes every proposal.
     ACCEPT_ALWAYS = ACCEPT, accept::accept_always;
     /// Adds each chain's sample to the film.

@@ -22,6 +22,8 @@
 //! mathematics of its own: that stands in `src/`, where tests call it.
 
 pub mod accept;
+pub mod bootstrap;
+pub mod chains;
 pub mod evaluate;
 pub mod list;
 pub mod propose;

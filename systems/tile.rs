@@ -2,7 +2,7 @@
 //!
 //! None of it is a table: tables are columns.
 
-use crate::film::Film;
+use crate::film::{BlockGrid, Film, GroupFilm};
 use crate::path::{VERTEX_DISCRETE, VERTEX_LENS};
 use crate::plan::{Extent, TablePlan, TilePlan};
 use crate::sampling::StreamKey;
@@ -10,7 +10,7 @@ use crate::scene::Scene;
 use crate::table::LANES;
 use bevy_ecs::resource::Resource;
 use bevy_ecs::world::World;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 /// The scene, shared by all tiles.
 #[derive(Resource, Clone)]
@@ -19,6 +19,14 @@ pub struct SceneRef(pub Arc<Scene>);
 /// The film, shared by all tiles.
 #[derive(Resource, Clone)]
 pub struct FilmRef(pub Arc<Film>);
+
+/// The film of the tile's group.
+#[derive(Resource, Clone)]
+pub struct GroupFilmRef(pub Arc<Mutex<GroupFilm>>);
+
+/// The blocks of the film that states are classed by.
+#[derive(Resource, Clone)]
+pub struct FilmBlocks(pub Arc<BlockGrid>);
 
 /// Which chains and which step the tile is at.
 #[derive(Resource, Clone, Copy, Debug)]
@@ -58,6 +66,8 @@ pub struct Queues {
     pub active: usize,
     /// Chains in [`ConnectList`](crate::path::ConnectList).
     pub connect: usize,
+    /// Chains in [`DrawList`](crate::path::DrawList).
+    pub draw: usize,
     /// Chains in [`DiffuseList`](crate::path::DiffuseList).
     pub diffuse: usize,
     /// Chains in [`ConductorList`](crate::path::ConductorList).
@@ -66,6 +76,8 @@ pub struct Queues {
     pub dielectric: usize,
     /// Chains in [`ScatteredList`](crate::path::ScatteredList).
     pub scattered: usize,
+    /// Chains in [`AcceptedList`](crate::chain::AcceptedList).
+    pub accepted: usize,
     /// Rays in the ray table.
     pub rays: usize,
     /// Segments in the ray table.

@@ -7,7 +7,7 @@ use super::target::check_writable;
 use super::{interrupt, memory};
 use crate::film::write_file;
 use crate::plan::{Stage, SystemSpec, Traces};
-use crate::render::{Budget, Render, drive};
+use crate::render::{Budget, Rendering, drive, start};
 use crate::systems::Span;
 use crate::systems::list::TRACE_LOOP;
 use clap::Args;
@@ -87,22 +87,23 @@ pub fn run(args: &ProfileArgs) -> Result<()> {
     let loaded = args.scene.load()?;
     let threads = usize::from(args.threads);
     memory::check(&loaded, threads)?;
-    let mut render = Render::new(Arc::clone(&loaded.scene), loaded.plan.clone(), args.seed, threads)?;
     let interrupt = interrupt::listen()?;
+    let (scene, plan) = (Arc::clone(&loaded.scene), loaded.plan.clone());
+    let mut render = start(scene, plan, args.seed, threads, &interrupt, &|_| {})?;
     if args.trace.is_some() {
-        render.for_each_world(|_, world| world.record_spans(TRACE_EVENTS));
+        render.for_each_world(&mut |_, world| world.record_spans(TRACE_EVENTS));
     }
-    let start = Instant::now();
+    let began = Instant::now();
     let outcome = drive(
-        &mut render,
+        &mut *render,
         args.budget.or(Budget::Time(DEFAULT_TIME)),
         &interrupt,
         &|_| {},
     );
     if let Some(path) = &args.trace {
-        write_file(path, &trace_events(&render, start)?)?;
+        write_file(path, &trace_events(&*render, began)?)?;
     }
-    let report = report(&render, outcome.elapsed);
+    let report = report(&*render, outcome.elapsed);
     if args.json {
         print(&serde_json::to_string_pretty(&report).into_diagnostic()?)
     } else {
@@ -110,7 +111,7 @@ pub fn run(args: &ProfileArgs) -> Result<()> {
     }
 }
 
-fn report(render: &Render, wall: Duration) -> Report {
+fn report(render: &dyn Rendering, wall: Duration) -> Report {
     let (costs, counters) = (render.costs(), render.counters());
     let paths = counters.decisions;
     let total = render.busy_time().as_nanos() as u64;
@@ -157,7 +158,7 @@ fn report(render: &Render, wall: Duration) -> Report {
     });
     let in_systems: u64 = costs.iter().filter(|c| !is_loop(c.spec)).map(|c| c.nanoseconds).sum();
     Report {
-        technique: render.plan.technique.name(),
+        technique: render.plan().technique.name(),
         threads: render.threads(),
         wall_seconds: wall.as_secs_f64(),
         steps: render.steps(),
@@ -238,9 +239,9 @@ struct TraceEvent {
     tid: usize,
 }
 
-fn trace_events(render: &Render, origin: Instant) -> Result<Vec<u8>> {
+fn trace_events(render: &dyn Rendering, origin: Instant) -> Result<Vec<u8>> {
     let mut events = Vec::new();
-    render.for_each_world(|thread, world| {
+    render.for_each_world(&mut |thread, world| {
         events.extend(world.profile().spans.iter().map(|span: &Span| TraceEvent {
             name: span.spec.name(),
             cat: span.spec.stage().name(),

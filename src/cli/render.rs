@@ -7,7 +7,7 @@ use super::report::Report;
 use super::target::check_writable;
 use super::{interrupt, memory};
 use crate::film::{PictureMetadata, ToneMap, write_exr, write_png};
-use crate::render::{Budget, Progress, Render, drive};
+use crate::render::{Budget, Progress, drive, start};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use miette::{IntoDiagnostic, Result, miette};
@@ -52,11 +52,12 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let loaded = args.scene.load()?;
     let threads = args.threads.count();
     memory::check(&loaded, threads)?;
-    let mut render = Render::new(Arc::clone(&loaded.scene), loaded.plan.clone(), args.seed, threads)?;
     let interrupt = interrupt::listen()?;
     let bar = progress_bar();
+    let (scene, plan) = (Arc::clone(&loaded.scene), loaded.plan.clone());
+    let mut render = start(scene, plan, args.seed, threads, &interrupt, &|_| {})?;
     let outcome = drive(
-        &mut render,
+        &mut *render,
         args.budget.or(Budget::Steps(DEFAULT_SPP)),
         &interrupt,
         &|p| show(&bar, p),
@@ -66,7 +67,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         note("interrupted before the first sample: nothing was written");
         return Ok(ExitCode::from(interrupt::EXIT_STATUS));
     }
-    let picture = render.film.develop();
+    let picture = render.picture();
     let metadata = PictureMetadata {
         scene: scene_name(&args.scene.scene),
         technique: loaded.plan.technique.name().to_owned(),
@@ -82,7 +83,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         &args.scene.scene,
         args.seed,
         &loaded,
-        &render,
+        &*render,
         outcome,
         &picture,
         &output,

@@ -3,7 +3,7 @@
 use super::load::{Loaded, settings};
 use super::output::{count, note};
 use crate::film::{ImageView, Picture};
-use crate::render::{Outcome, Render, Stop};
+use crate::render::{Outcome, Rendering, Stop};
 use serde::Serialize;
 use std::path::Path;
 
@@ -43,13 +43,13 @@ impl<'a> Report<'a> {
         scene: &Path,
         seed: u64,
         loaded: &'a Loaded,
-        render: &Render,
+        render: &dyn Rendering,
         outcome: Outcome,
         picture: &Picture,
         output: &Path,
     ) -> Self {
         let counters = render.counters();
-        let tally = render.film.tally();
+        let tally = render.tally();
         let mean = channel_mean(picture.view(), f64::from);
         let rms_error = (outcome.steps > 1).then(|| {
             channel_mean(

@@ -4,7 +4,7 @@ use super::layer::{LayerChannels, PictureLayer};
 use crate::color::Rgb;
 
 /// What a film shows: per pixel a colour, its standard error and the samples behind it. Row-major, top left first.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
     /// Pixels in a row.
     pub width: u32,

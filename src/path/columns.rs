@@ -6,6 +6,7 @@
 
 use crate::color::Rgb;
 use crate::columns;
+use crate::table::{NoTwin, Table};
 use bevy_ecs::component::Component;
 use glam::{DVec2, Vec3};
 
@@ -13,13 +14,25 @@ use glam::{DVec2, Vec3};
 #[derive(Component, Clone, Copy, Debug, Default)]
 pub struct ChainTable;
 
+impl Table for ChainTable {
+    type Twin = NoTwin;
+}
+
 /// Marks the rows of the table of proposed path vertices.
 #[derive(Component, Clone, Copy, Debug, Default)]
 pub struct ProposalTable;
 
+impl Table for ProposalTable {
+    type Twin = NoTwin;
+}
+
 /// Marks the rows of the ray table: one ray or segment per chain at most.
 #[derive(Component, Clone, Copy, Debug, Default)]
 pub struct RayTable;
+
+impl Table for RayTable {
+    type Twin = NoTwin;
+}
 
 /// Vertex kind: the point on the lens where the path starts.
 pub const VERTEX_LENS: u32 = 0;

@@ -4,11 +4,17 @@
 //! between it and the camera.
 
 mod columns;
+mod draws;
 mod film_position;
 pub mod mis;
+mod primary;
 pub mod roulette;
 mod scatterer;
+mod states;
 
 pub use columns::*;
+pub use draws::{FilmCoordinates, KeyedDraws, LightDraw, PathDraws, VertexCoordinates};
 pub use film_position::film_position;
+pub use primary::*;
 pub use scatterer::{Connection, Scatterer};
+pub use states::*;

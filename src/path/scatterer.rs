@@ -1,10 +1,10 @@
 //! A surface point on a path: connecting it to a sampled light (next-event estimation), and scattering off it.
 
+use super::draws::LightDraw;
 use super::mis;
 use crate::color::Rgb;
 use crate::geometry::offset_origin;
 use crate::material::{Frame, Scattered};
-use crate::sampling::{Purpose, StreamKey};
 use crate::scene::Scene;
 use glam::Vec3;
 
@@ -59,13 +59,11 @@ impl Scatterer {
         (self.sides_agree(direction) && !outcome.ratio.is_black()).then_some((direction, outcome))
     }
 
-    /// Samples a light for this point at `depth`, with the draws of `key`. `None` if no light can reach it that way.
+    /// Samples a light for this point. `None` if no light can reach it that way.
     #[inline]
     #[must_use]
-    pub fn connect(&self, scene: &Scene, key: StreamKey, depth: u32) -> Option<Connection> {
-        let mut stream = key.stream(Purpose::LIGHT, depth);
-        let choice = stream.next_f64();
-        let light = scene.lights.sample(self.position, choice, stream.next_pair())?;
+    pub fn connect(&self, scene: &Scene, draw: LightDraw) -> Option<Connection> {
+        let light = scene.lights.sample(self.position, draw.choice, draw.point)?;
         if !self.sides_agree(light.direction) {
             return None;
         }

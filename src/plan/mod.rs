@@ -3,21 +3,57 @@
 //! Schedule and tables are built from the plan and nothing else ([`crate::render::TileWorld`]), so an effect that a
 //! scene does not call for has no system that runs and no column that takes memory. Every entry carries its reason.
 
+mod chains;
 mod effect;
+mod mutation;
 mod path_tracing;
+mod pssmlt;
 mod reference;
 mod system;
 mod table;
 mod technique;
 mod tile;
 
+pub use chains::{ChainCounts, ChainPlanError, ChainSettings, StateSystems, chain_tile, choose_mutations};
 pub use effect::{Effect, EffectPlan};
+pub use mutation::{AnyMutation, MAX_MUTATIONS, Mutation, MutationPlan, Registered, Registry, StateSpace};
 pub use system::{InPlan, Phases, Place, Stage, SystemPlan, SystemSpec, TraceStep, Traces};
 pub use table::{ColumnPlan, Extent, TableId, TablePlan};
 pub use technique::{Technique, UnknownTechnique};
 pub use tile::TilePlan;
 
+use crate::film::{Film, GroupFilm};
 use crate::scene::Scene;
+
+/// What is asked of a plan beyond the technique.
+#[derive(Clone, Debug)]
+pub struct PlanOptions {
+    /// Chains of a tile, instead of as many as fit the cache; rounded up to whole lane groups.
+    pub tile_size: Option<u32>,
+    /// How chains are run.
+    pub chains: ChainSettings,
+    /// The mutations there are, with their settings.
+    pub mutations: Registry,
+}
+
+impl Default for PlanOptions {
+    fn default() -> Self {
+        Self {
+            tile_size: None,
+            chains: ChainSettings::default(),
+            mutations: crate::systems::propose::mutations(),
+        }
+    }
+}
+
+/// The chains of a plan.
+#[derive(Clone, Debug)]
+pub struct ChainPlan {
+    /// How many.
+    pub counts: ChainCounts,
+    /// Their mutations, by number.
+    pub mutations: Vec<MutationPlan>,
+}
 
 /// What a render will do, and why.
 #[derive(Clone, Debug)]
@@ -28,6 +64,8 @@ pub struct Plan {
     pub effects: Vec<EffectPlan>,
     /// What every tile's world is built from.
     pub tile: TilePlan,
+    /// The chains, for techniques that run some.
+    pub chains: Option<ChainPlan>,
     /// How rays are traced.
     pub tracer: &'static str,
     /// Why they are traced so.
@@ -39,31 +77,66 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Plans `technique` for `scene`. `tile_size` overrides the chains of a tile; it is rounded up to whole lane groups.
+    /// Plans `technique` for `scene`, with the mutations of this crate at their defaults. `tile_size` overrides the chains
+    /// of a tile.
+    ///
+    /// # Panics
+    /// Never: the defaults make a plan.
     #[must_use]
     pub fn new(scene: &Scene, technique: Technique, tile_size: Option<u32>) -> Self {
+        let options = PlanOptions {
+            tile_size,
+            ..PlanOptions::default()
+        };
+        match Self::with(scene, technique, &options) {
+            Ok(plan) => plan,
+            Err(error) => panic!("the defaults make a plan: {error}"),
+        }
+    }
+
+    /// Plans `technique` for `scene` as `options` say.
+    ///
+    /// # Errors
+    /// Mutations that chains cannot run with.
+    pub fn with(scene: &Scene, technique: Technique, options: &PlanOptions) -> Result<Self, ChainPlanError> {
         let effects = effect::effects(scene);
-        let (systems, tables) = match technique {
-            Technique::Pt => (
+        let mut chains = None;
+        let tile = match technique {
+            Technique::Pt => TilePlan::new(
                 path_tracing::systems(scene, &effects),
                 path_tracing::tables(scene, &effects),
+                options.tile_size,
             ),
-            Technique::PtReference => (reference::systems(&effects), reference::tables(&effects)),
+            Technique::PtReference => {
+                TilePlan::new(reference::systems(&effects), reference::tables(&effects), options.tile_size)
+            }
+            Technique::Pssmlt => {
+                let mutations = choose_mutations(&options.mutations, StateSpace::PRIMARY, &effects)?;
+                let counts = options.chains.counts(scene.pixel_count());
+                let states = pssmlt::states(scene, &effects);
+                let tile = chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size);
+                chains = Some(ChainPlan { counts, mutations });
+                tile
+            }
         };
-        let tile = TilePlan::new(systems, tables, tile_size);
-        let tree_bytes = scene.geometry.tree_bytes() as u64;
-        Self {
+        let (width, height) = (scene.width, scene.height);
+        let film_bytes = match &chains {
+            Some(plan) => u64::from(plan.counts.groups) * GroupFilm::bytes(width, height),
+            None => Film::bytes(width, height),
+        };
+        Ok(Self {
             technique,
             effects,
             tile,
+            chains,
             tracer: "binary tree, one ray after another",
             tracer_reason: format!(
                 "the only tracer so far; {} primitives",
                 scene.geometry.primitive_count()
             ),
-            tree_bytes,
-            film_bytes: crate::film::Film::bytes(scene.width, scene.height),
-        }
+            tree_bytes: scene.geometry.tree_bytes() as u64,
+            film_bytes,
+        })
     }
 
     /// Whether `effect` is on.

@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use crate::systems::list::*;
 
 /// Whether paths go beyond the first surface they meet.
-fn scatters(effects: &[EffectPlan]) -> bool {
+pub(super) fn scatters(effects: &[EffectPlan]) -> bool {
     use Effect::{DiffuseReflection, Refraction, SpecularReflection};
     [DiffuseReflection, SpecularReflection, Refraction]
         .into_iter()

@@ -1,8 +1,8 @@
 //! Tables as a plan lists them.
 
-use crate::path::{BookedWeight, ChainKey, ChainTable, Contribution, Decisions, FilmPixel, ProposalTable, RayTable};
-use crate::table::{Column, ColumnSpec, LANES};
-use bevy_ecs::component::{Component, ComponentId};
+use crate::path::*;
+use crate::table::{Column, ColumnSpec, LANES, Table};
+use bevy_ecs::component::ComponentId;
 use bevy_ecs::world::{EntityWorldMut, World};
 use std::fmt;
 
@@ -34,9 +34,18 @@ impl TableId {
     /// One entry per ray or segment in flight.
     pub const RAYS: Self = Self::of::<RayTable>("rays");
 
+    /// Primary coordinates of current states, by depth from 1 on.
+    pub const PRIMARY: Self = Self::of::<PrimaryTable>("primary coordinates");
+    /// Primary coordinates of proposals.
+    pub const PROPOSED_PRIMARY: Self = Self::of::<ProposedPrimaryTable>("proposed coordinates");
+    /// Splats of current states.
+    pub const SPLATS: Self = Self::of::<SplatTable>("splats");
+    /// Splats of proposals.
+    pub const PROPOSED_SPLATS: Self = Self::of::<ProposedSplatTable>("proposed splats");
+
     /// The table whose rows are marked with `Marker`.
     #[must_use]
-    pub const fn of<Marker: Component + Default>(name: &'static str) -> Self {
+    pub const fn of<Marker: Table>(name: &'static str) -> Self {
         Self {
             name,
             spawn: |world| world.spawn(Marker::default()),

@@ -11,6 +11,8 @@ pub enum Technique {
     Pt,
     /// The same estimator traced depth first, one path after another: the oracle of the staged one, and its baseline.
     PtReference,
+    /// Primary-sample-space Metropolis light transport (Kelemen, Szirmay-Kalos, Antal and Csonka 2002) over path tracing.
+    Pssmlt,
 }
 
 /// No technique has this name.
@@ -35,7 +37,7 @@ fn hint(nearest: &Option<&'static str>) -> String {
 
 impl Technique {
     /// Every technique.
-    pub const ALL: [Self; 2] = [Self::Pt, Self::PtReference];
+    pub const ALL: [Self; 3] = [Self::Pt, Self::PtReference, Self::Pssmlt];
 
     /// The name on the command line and in files.
     #[must_use]
@@ -43,6 +45,7 @@ impl Technique {
         match self {
             Self::Pt => "pt",
             Self::PtReference => "pt-reference",
+            Self::Pssmlt => "pssmlt",
         }
     }
 }

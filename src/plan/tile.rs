@@ -42,6 +42,14 @@ impl TilePlan {
         }
     }
 
+    /// Gives the tile another size, a multiple of [`LANES`].
+    pub(super) fn resize(&mut self, size: u32, reason: String) {
+        for table in &mut self.tables {
+            table.fit(size);
+        }
+        (self.size, self.reason) = (size, reason);
+    }
+
     /// Memory of the tile's tables as they are built, in bytes.
     #[must_use]
     pub fn bytes(&self) -> u64 {

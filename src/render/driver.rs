@@ -1,6 +1,6 @@
 //! How long a render runs: bursts until a budget is spent or someone interrupts.
 
-use super::Render;
+use super::Rendering;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -53,7 +53,7 @@ const BURST: Duration = Duration::from_millis(250);
 /// How many steps a burst has does not matter to the picture: all tiles stop at the same step, and that number of steps
 /// reproduces it.
 pub fn drive(
-    render: &mut Render,
+    render: &mut dyn Rendering,
     budget: Budget,
     interrupt: &AtomicBool,
     progress: &(impl Fn(Progress) + Sync),

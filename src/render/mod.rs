@@ -1,21 +1,31 @@
 //! Rendering: tiles built from a plan, dealt to threads, burst by burst.
 
 mod built;
+mod chains;
+mod deal;
 mod driver;
+mod group;
+mod rendering;
 mod tile_world;
 
 pub use built::{Built, BuiltColumn, BuiltTable, short};
+pub use chains::{ChainRender, class_name};
 pub use driver::{Budget, Outcome, Progress, Stop, drive};
+pub use group::Group;
+pub use rendering::Rendering;
 pub use tile_world::TileWorld;
 
-use crate::film::{Film, FilmError};
-use crate::plan::{Plan, SystemSpec};
+use crate::film::{Film, FilmError, Picture, Tally};
+use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::systems::SystemCost;
 use crate::systems::tile::{Counters, FilmRef, SceneRef};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use deal::deal;
+use rendering::merge_costs;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
+use tile_world::lock;
 
 /// Why a render cannot start.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
@@ -33,6 +43,16 @@ pub enum RenderError {
         /// What the operating system said.
         source: rayon::ThreadPoolBuildError,
     },
+    /// The plan has no chains.
+    #[error("{technique} has no chains")]
+    #[diagnostic(help("plan a technique with chains, such as pssmlt"))]
+    NoChains {
+        /// The technique.
+        technique: &'static str,
+    },
+    /// Somebody stopped it before the first step.
+    #[error("interrupted before the first step")]
+    Interrupted,
 }
 
 /// A render under way: the film, and one tile world per thread through which the tiles pass.
@@ -61,10 +81,7 @@ impl Render {
         let film = Arc::new(Film::new(scene.width, scene.height, scene.lights.max_radiance())?);
         let tiles = scene.pixel_count().div_ceil(plan.tile.size) as usize;
         let threads = threads.clamp(1, tiles);
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .map_err(|source| RenderError::Threads { threads, source })?;
+        let pool = thread_pool(threads)?;
         let world = |_| {
             Mutex::new(TileWorld::new(&plan.tile, seed, |world| {
                 world.insert_resource(SceneRef(Arc::clone(&scene)));
@@ -82,102 +99,106 @@ impl Render {
         })
     }
 
-    /// Steps that every chain has taken.
-    #[must_use]
-    pub const fn steps(&self) -> u64 {
-        self.steps
-    }
-
-    /// Threads at work.
-    #[must_use]
-    pub fn threads(&self) -> usize {
-        self.worlds.len()
-    }
-
-    /// Chains of the whole render: one per pixel.
-    #[must_use]
-    pub fn chains(&self) -> u32 {
-        self.scene.pixel_count()
-    }
-
-    /// Tiles of the whole render.
-    #[must_use]
-    pub fn tile_count(&self) -> usize {
-        self.chains().div_ceil(self.plan.tile.size) as usize
-    }
-
-    /// Runs `steps` more steps of every chain, all tiles to the same step; `done` hears of every tile that has finished,
-    /// by its number of samples.
-    pub fn burst(&mut self, steps: u64, done: &(impl Fn(u64) + Sync)) {
-        let order: Vec<usize> = (0..self.tile_count()).collect();
-        self.burst_in_order(steps, &order, done);
-    }
-
-    /// [`burst`](Self::burst) with the tiles dealt in the given order, which must name every tile once; others are
+    /// [`burst`](Rendering::burst) with the tiles dealt in the given order, which must name every tile once; others are
     /// passed over.
-    pub fn burst_in_order(&mut self, steps: u64, order: &[usize], done: &(impl Fn(u64) + Sync)) {
-        let next = AtomicUsize::new(0);
+    pub fn burst_in_order(&mut self, steps: u64, order: &[usize], done: &(dyn Fn(u64) + Sync)) {
         let (chains, tile_size) = (self.chains(), self.plan.tile.size);
         let (tiles, range) = (self.tile_count(), self.steps..self.steps + steps);
-        let worlds = &self.worlds;
-        self.pool.broadcast(|context| {
-            let mut world = lock(&worlds[context.index()]);
-            while let Some(&tile) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
-                if tile >= tiles {
-                    continue;
-                }
+        deal(&self.pool, order, &|tile, thread| {
+            if tile < tiles {
                 let first = tile as u32 * tile_size;
                 let count = tile_size.min(chains - first);
-                world.run(first, count, range.clone());
+                lock(&self.worlds[thread]).run(first, count, range.clone());
                 done(u64::from(count) * steps);
             }
         });
         self.steps += steps;
     }
+}
 
-    /// What all worlds have counted.
-    #[must_use]
-    pub fn counters(&self) -> Counters {
-        self.worlds
-            .iter()
-            .fold(Counters::default(), |sum, world| sum.plus(lock(world).counters()))
+impl Rendering for Render {
+    fn plan(&self) -> &Plan {
+        &self.plan
     }
 
-    /// What every system has cost, summed over threads, in the order in which systems run.
-    #[must_use]
-    pub fn costs(&self) -> Vec<SystemCost> {
-        let mut total: Vec<SystemCost> = Vec::new();
-        for world in &self.worlds {
-            for cost in &lock(world).profile().systems {
-                match total.iter_mut().find(|sum| sum.spec == cost.spec) {
-                    Some(sum) => {
-                        sum.runs += cost.runs;
-                        sum.nanoseconds += cost.nanoseconds;
-                    }
-                    None => total.push(*cost),
-                }
-            }
-        }
-        let position = |spec: SystemSpec| self.plan.tile.systems.iter().position(|system| system.spec == spec);
-        total.sort_by_key(|cost| position(cost.spec));
-        total
+    fn scene(&self) -> &Arc<Scene> {
+        &self.scene
     }
 
-    /// Wall time that threads have spent in steps, summed over them.
-    #[must_use]
-    pub fn busy_time(&self) -> Duration {
+    fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// One per pixel.
+    fn chains(&self) -> u32 {
+        self.scene.pixel_count()
+    }
+
+    fn threads(&self) -> usize {
+        self.worlds.len()
+    }
+
+    fn tile_count(&self) -> usize {
+        self.chains().div_ceil(self.plan.tile.size) as usize
+    }
+
+    fn burst(&mut self, steps: u64, done: &(dyn Fn(u64) + Sync)) {
+        let order: Vec<usize> = (0..self.tile_count()).collect();
+        self.burst_in_order(steps, &order, done);
+    }
+
+    fn counters(&self) -> Counters {
+        let sum = |sum: Counters, world: &Mutex<TileWorld>| sum.plus(lock(world).counters());
+        self.worlds.iter().fold(Counters::default(), sum)
+    }
+
+    fn costs(&self) -> Vec<SystemCost> {
+        merge_costs(&self.plan, self.worlds.iter().map(|world| lock(world).profile().systems.clone()))
+    }
+
+    fn busy_time(&self) -> Duration {
         self.worlds.iter().map(|world| lock(world).busy()).sum()
     }
 
-    /// Lets `look` see every thread's world.
-    pub fn for_each_world(&self, mut look: impl FnMut(usize, &mut TileWorld)) {
+    fn picture(&self) -> Picture {
+        self.film.develop()
+    }
+
+    fn tally(&self) -> Tally {
+        self.film.tally()
+    }
+
+    fn for_each_world(&self, look: &mut dyn FnMut(usize, &mut TileWorld)) {
         for (thread, world) in self.worlds.iter().enumerate() {
             look(thread, &mut lock(world));
         }
     }
 }
 
-/// A world that another thread panicked in still holds valid tables: every step writes before it reads.
-fn lock(world: &Mutex<TileWorld>) -> MutexGuard<'_, TileWorld> {
-    world.lock().unwrap_or_else(PoisonError::into_inner)
+/// Starts a render of whatever the plan says: for chains, bootstrap included, of which `progress` hears the share that is
+/// done.
+///
+/// # Errors
+/// As [`Render::new`] and [`ChainRender::start`].
+pub fn start(
+    scene: Arc<Scene>,
+    plan: Plan,
+    seed: u64,
+    threads: usize,
+    interrupt: &AtomicBool,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<Box<dyn Rendering>, RenderError> {
+    Ok(if plan.chains.is_some() {
+        Box::new(ChainRender::start(scene, plan, seed, threads, interrupt, progress)?)
+    } else {
+        Box::new(Render::new(scene, plan, seed, threads)?)
+    })
+}
+
+/// A pool of `threads` threads.
+fn thread_pool(threads: usize) -> Result<rayon::ThreadPool, RenderError> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|source| RenderError::Threads { threads, source })
 }

@@ -2,9 +2,14 @@
 
 use crate::plan::TilePlan;
 use crate::systems::tile::{Counters, Depths, Queues, TilePlace};
+use crate::table::{Column, Rows};
 use crate::systems::{Profile, Run, build_schedules};
+use bevy_ecs::change_detection::ContiguousMut;
+use bevy_ecs::component::Component;
+use bevy_ecs::query::With;
 use bevy_ecs::world::World;
 use std::ops::Range;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// One bevy world with the tables and schedules of a plan, through which tiles pass.
@@ -61,6 +66,45 @@ impl TileWorld {
         self.busy += start.elapsed();
     }
 
+    /// Copies the first values of column `C` of table `T`, as many as `values` has room for.
+    pub fn read<C: Column, T: Component>(&mut self, values: &mut [C::Value]) {
+        let mut column = self.world.query_filtered::<&C, With<T>>();
+        let column = column.query(&self.world);
+        if let Ok(mut tables) = column.contiguous_iter()
+            && let Some(rows) = tables.next()
+        {
+            values.iter_mut().enumerate().for_each(|(i, value)| *value = rows.at(i));
+        }
+    }
+
+    /// Overwrites the first values of column `C` of table `T`.
+    pub fn write<C: Column, T: Component>(&mut self, values: &[C::Value]) {
+        let mut column = self.world.query_filtered::<&mut C, With<T>>();
+        let mut column = column.query_mut(&mut self.world);
+        if let Ok(mut tables) = column.contiguous_iter_mut()
+            && let Some(rows) = tables.next()
+        {
+            let rows = ContiguousMut::bypass_change_detection_split(rows).0;
+            values.iter().enumerate().for_each(|(i, value)| rows.put(i, *value));
+        }
+    }
+
+    /// Zeroes column `C` of table `T`.
+    pub fn clear<C: Column, T: Component>(&mut self) {
+        let mut column = self.world.query_filtered::<&mut C, With<T>>();
+        for mut lanes in column.iter_mut(&mut self.world) {
+            *lanes = C::zeroed();
+        }
+    }
+
+    /// Forgets what systems have cost so far.
+    pub fn reset_costs(&mut self) {
+        for cost in &mut self.world.resource_mut::<Profile>().systems {
+            (cost.runs, cost.nanoseconds) = (0, 0);
+        }
+        self.busy = Duration::ZERO;
+    }
+
     /// Wall time spent in steps.
     #[must_use]
     pub const fn busy(&self) -> Duration {
@@ -94,4 +138,9 @@ impl TileWorld {
     pub const fn world_mut(&mut self) -> &mut World {
         &mut self.world
     }
+}
+
+/// A lock that another thread panicked under still holds valid tables: every step writes before it reads.
+pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -113,6 +113,19 @@ pub struct Stream {
 }
 
 impl Stream {
+    /// 32 random bits.
+    #[inline]
+    pub fn next_u32(&mut self) -> u32 {
+        self.generator.next_u32()
+    }
+
+    /// 64 random bits.
+    #[inline]
+    pub fn next_u64(&mut self) -> u64 {
+        let high = u64::from(self.generator.next_u32());
+        high << 32 | u64::from(self.generator.next_u32())
+    }
+
     /// A uniform number in [0, 1): a multiple of 2⁻²⁴, never 1.
     #[inline]
     pub fn next_f32(&mut self) -> f32 {

@@ -76,6 +76,46 @@ pub struct Lanes3(pub [LanesF32; 3]);
 #[repr(C, align(64))]
 pub struct LanesD2(pub [LanesF64; 2]);
 
+/// Sixteen pairs of `u32`, component by component.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C, align(64))]
+pub struct LanesU2(pub [LanesU32; 2]);
+
+impl LaneValue for [u32; 2] {
+    type Store = LanesU2;
+    #[inline]
+    fn load(store: &LanesU2, lane: usize) -> Self {
+        let l = lane % LANES;
+        [store.0[0].0[l], store.0[1].0[l]]
+    }
+    #[inline]
+    fn store(store: &mut LanesU2, lane: usize, value: Self) {
+        let l = lane % LANES;
+        store.0[0].0[l] = value[0];
+        store.0[1].0[l] = value[1];
+    }
+}
+
+/// Sixteen pairs of `u64`, component by component.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C, align(64))]
+pub struct LanesUL2(pub [LanesU64; 2]);
+
+impl LaneValue for [u64; 2] {
+    type Store = LanesUL2;
+    #[inline]
+    fn load(store: &LanesUL2, lane: usize) -> Self {
+        let l = lane % LANES;
+        [store.0[0].0[l], store.0[1].0[l]]
+    }
+    #[inline]
+    fn store(store: &mut LanesUL2, lane: usize, value: Self) {
+        let l = lane % LANES;
+        store.0[0].0[l] = value[0];
+        store.0[1].0[l] = value[1];
+    }
+}
+
 impl LaneValue for Vec3 {
     type Store = Lanes3;
     #[inline]

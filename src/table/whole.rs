@@ -3,16 +3,27 @@
 use super::Column;
 use bevy_ecs::change_detection::ContiguousMut;
 use bevy_ecs::component::Component;
-use bevy_ecs::query::With;
+use bevy_ecs::query::{With, Without};
 use bevy_ecs::system::{Query, SystemParam};
+
+/// A table: the marker of its rows.
+pub trait Table: Component + Default {
+    /// The table that has the same columns, such as that of proposals beside that of current states; [`NoTwin`] if there is
+    /// none. A system may read a column of one and write that of the other.
+    type Twin: Component;
+}
+
+/// Marks nothing: the twin of tables without one.
+#[derive(Component, Clone, Copy, Debug, Default)]
+pub struct NoTwin;
 
 /// Reads the whole column `C` of the table marked `T`.
 #[derive(SystemParam)]
-pub struct Read<'w, 's, C: Column, T: Component> {
-    query: Query<'w, 's, &'static C, With<T>>,
+pub struct Read<'w, 's, C: Column, T: Table> {
+    query: Query<'w, 's, &'static C, (With<T>, Without<<T as Table>::Twin>)>,
 }
 
-impl<C: Column, T: Component> Read<'_, '_, C, T> {
+impl<C: Column, T: Table> Read<'_, '_, C, T> {
     /// The column as one slice of lane groups; empty if the plan left the column out.
     #[inline]
     #[must_use]
@@ -27,11 +38,11 @@ impl<C: Column, T: Component> Read<'_, '_, C, T> {
 
 /// Writes the whole column `C` of the table marked `T`. Change detection is bypassed: nothing here watches ticks.
 #[derive(SystemParam)]
-pub struct Write<'w, 's, C: Column, T: Component> {
-    query: Query<'w, 's, &'static mut C, With<T>>,
+pub struct Write<'w, 's, C: Column, T: Table> {
+    query: Query<'w, 's, &'static mut C, (With<T>, Without<<T as Table>::Twin>)>,
 }
 
-impl<C: Column, T: Component> Write<'_, '_, C, T> {
+impl<C: Column, T: Table> Write<'_, '_, C, T> {
     /// The column as one mutable slice of lane groups; empty if the plan left the column out.
     #[inline]
     #[must_use]

@@ -1,7 +1,29 @@
-//! The propose stage: what each chain tries next.
+//! The propose stage: what each chain tries next. A mutation is one file here.
 
 mod assign_pixels;
+mod choose_mutation;
+pub mod identity;
+mod key_chains;
+pub mod large_step;
+pub mod proposal;
+pub mod small_step;
 mod start_camera_paths;
 
 pub use assign_pixels::assign_pixels;
+pub use choose_mutation::choose_mutation;
+pub use identity::{Identity, draw_identities, propose_identities};
+pub use key_chains::key_chains;
+pub use large_step::{LargeStep, draw_large_steps, propose_large_steps};
+pub use small_step::{SmallStep, draw_small_steps, propose_small_steps};
 pub use start_camera_paths::start_camera_paths;
+
+use crate::plan::Registry;
+
+/// The list of mutations: registering one is a line here, or in the program that brings its own.
+#[must_use]
+pub fn mutations() -> Registry {
+    Registry::empty()
+        .with(LargeStep::default())
+        .with(SmallStep::default())
+        .with(Identity::default())
+}

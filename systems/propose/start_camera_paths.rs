@@ -6,13 +6,15 @@ use crate::path::*;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut};
 
-/// Starts a path on the lens of every chain, through a film position drawn from the filter about its pixel.
+/// Starts a path on the lens of every chain, through a film position drawn from the filter about its pixel, or
+/// where its primary coordinates say.
 pub fn start_camera_paths(
     scene: Res<SceneRef>,
     place: Res<TilePlace>,
     mut queues: ResMut<Queues>,
     keys: Read<ChainKey, ChainTable>,
-    pixels: Read<FilmPixel, ChainTable>,
+    film: Read<ProposedFilm, ChainTable>,
+    mut pixels: Write<FilmPixel, ChainTable>,
     mut directions: Write<Direction, ChainTable>,
     mut lengths: Write<PathLength, ChainTable>,
     mut throughputs: Write<Throughput, ChainTable>,
@@ -24,13 +26,18 @@ pub fn start_camera_paths(
     mut ratios: Write<VertexRatio, ProposalTable>,
 ) {
     let scene = &*scene.0;
-    let (keys, pixels) = (keys.rows(), pixels.rows());
+    let (keys, pixels, primary) = (keys.rows(), pixels.rows(), film.rows());
     let (directions, lengths, active) = (directions.rows(), lengths.rows(), active.rows());
     let (throughputs, scales) = (throughputs.rows(), scales.rows());
     let (kinds, positions, offsets, ratios) = (kinds.rows(), positions.rows(), offsets.rows(), ratios.rows());
     for chain in 0..place.chains as usize {
-        let key = place.key(chain, keys.at(chain));
-        let film = film_position(scene, key, pixels.at(chain));
+        let film = if primary.is_empty() {
+            film_position(scene, place.key(chain, keys.at(chain)), pixels.at(chain))
+        } else {
+            let (pixel, film) = FilmCoordinates(primary.at(chain)).on_film(scene);
+            pixels.put(chain, pixel);
+            film
+        };
         directions.put(chain, scene.camera.direction(film));
         lengths.put(chain, 0);
         active.put(chain, chain as u32);

@@ -1,5 +1,9 @@
 //! The splat stage: what was booked goes to the film.
 
 mod splat_samples;
+mod splat_states;
+mod take_splats;
 
 pub use splat_samples::splat_samples;
+pub use splat_states::splat_states;
+pub use take_splats::take_splats;

@@ -1,9 +1,10 @@
 //! Connections to lights.
 
 use super::super::tile::{Queues, SceneRef, TilePlace};
+use super::draws::Draws;
 use super::scatter::Scatterers;
 use crate::geometry::{RayOrigin, SegmentTarget};
-use crate::path::{ChainKey, ChainTable, ConnectList, ProposalTable, RayChain, RayTable, VertexConnection};
+use crate::path::{ChainTable, ConnectList, ProposalTable, RayChain, RayTable, VertexConnection};
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut};
 
@@ -13,7 +14,7 @@ pub fn connect_lights(
     place: Res<TilePlace>,
     mut queues: ResMut<Queues>,
     list: Read<ConnectList, ChainTable>,
-    keys: Read<ChainKey, ChainTable>,
+    draws: Draws,
     scatterers: Scatterers,
     mut connections: Write<VertexConnection, ProposalTable>,
     mut ray_chains: Write<RayChain, RayTable>,
@@ -21,14 +22,14 @@ pub fn connect_lights(
     mut targets: Write<SegmentTarget, RayTable>,
 ) {
     let scene = &*scene.0;
-    let (list, keys, scatterers) = (list.rows(), keys.rows(), scatterers.columns());
+    let (list, draws, scatterers) = (list.rows(), draws.columns(&place), scatterers.columns());
     let (ray_chains, origins, targets) = (ray_chains.rows(), origins.rows(), targets.rows());
     let connections = connections.rows();
     let mut segments = 0;
     for entry in 0..queues.connect {
         let chain = list.at(entry) as usize;
         let (depth, vertex, scatterer) = scatterers.at(&place, chain);
-        let Some(connection) = scatterer.connect(scene, place.key(chain, keys.at(chain)), depth) else {
+        let Some(connection) = scatterer.connect(scene, draws.light(chain, depth)) else {
             continue;
         };
         connections.put(vertex, connection.value);

@@ -1,8 +1,8 @@
 //! Who goes on.
 
 use super::super::tile::{Queues, TilePlace};
+use super::draws::Draws;
 use crate::path::*;
-use crate::sampling::Purpose;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut};
 
@@ -11,14 +11,15 @@ pub fn continue_paths(
     place: Res<TilePlace>,
     mut queues: ResMut<Queues>,
     scattered: Read<ScatteredList, ChainTable>,
-    keys: Read<ChainKey, ChainTable>,
+    draws: Draws,
     lengths: Read<PathLength, ChainTable>,
     scales: Read<RadianceScale, ChainTable>,
     mut throughputs: Write<Throughput, ChainTable>,
     mut active: Write<ActiveList, ChainTable>,
     mut ratios: Write<VertexRatio, ProposalTable>,
 ) {
-    let (scattered, keys, lengths, scales) = (scattered.rows(), keys.rows(), lengths.rows(), scales.rows());
+    let (scattered, lengths, scales) = (scattered.rows(), lengths.rows(), scales.rows());
+    let draws = draws.columns(&place);
     let (throughputs, active, ratios) = (throughputs.rows(), active.rows(), ratios.rows());
     let mut survivors = 0;
     for entry in 0..queues.scattered {
@@ -28,8 +29,7 @@ pub fn continue_paths(
         let scale = if scales.is_empty() { 1.0 } else { scales.at(chain) };
         let survival = roulette::survival(depth, throughput, scale);
         if survival < 1.0 {
-            let mut stream = place.key(chain, keys.at(chain)).stream(Purpose::ROULETTE, depth);
-            if stream.next_f32() >= survival {
+            if draws.roulette(chain, depth) >= survival {
                 continue;
             }
             let vertex = place.vertex(chain, depth);

@@ -1,7 +1,9 @@
 //! The depth-first path tracer: one path after another, as most renderers work. It is the oracle of the staged one (with
 //! the same draws it must give the same light, bit for bit) and the honest baseline of its benchmark.
 
+use super::super::evaluate::Brightest;
 use super::super::tile::{Counters, SceneRef, TilePlace, connectable};
+use crate::chain::StateClass;
 use crate::color::Rgb;
 use crate::geometry::{
     Hit, HitColumns, HitDistance, HitInstance, HitPrimitive, HitUv, NO_HIT, NOT_EMITTING, RayColumns, RayDirection,
@@ -9,11 +11,10 @@ use crate::geometry::{
 };
 use crate::material::MaterialKind;
 use crate::path::*;
-use crate::sampling::{Purpose, StreamKey};
 use crate::scene::Scene;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut, SystemParam};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// A ray table of one lane group, of which one ray is used.
 #[derive(SystemParam)]
@@ -29,7 +30,7 @@ pub struct OneRay<'w, 's> {
 }
 
 /// The columns of [`OneRay`] as slices, with the scene they are traced against.
-struct Tracer<'a> {
+pub(in super::super) struct Tracer<'a> {
     scene: &'a Scene,
     counters: &'a mut Counters,
     origin: &'a mut [RayOrigin],
@@ -53,39 +54,49 @@ pub fn trace_depth_first(
     mut ray: OneRay,
 ) {
     let (keys, pixels, contributions) = (keys.rows(), pixels.rows(), contributions.rows());
-    let mut tracer = Tracer {
-        scene: &scene.0,
-        counters: &mut counters,
-        origin: ray.origin.rows(),
-        direction: ray.direction.rows(),
-        distance: ray.distance.rows(),
-        instance: ray.instance.rows(),
-        primitive: ray.primitive.rows(),
-        uv: ray.uv.rows(),
-        target: ray.target.rows(),
-        transmittance: ray.transmittance.rows(),
-    };
+    let mut tracer = Tracer::new(&scene.0, &mut counters, &mut ray);
     for chain in 0..place.chains as usize {
         let key = place.key(chain, keys.at(chain));
-        contributions.put(chain, tracer.radiance(key, pixels.at(chain)));
+        let film = film_position(&scene.0, key, pixels.at(chain));
+        contributions.put(chain, tracer.trace(film, &mut KeyedDraws(key)).0);
     }
 }
 
-impl Tracer<'_> {
-    /// The radiance that one path through a pixel estimates.
-    fn radiance(&mut self, key: StreamKey, pixel: u32) -> Rgb {
+impl<'a> Tracer<'a> {
+    /// The tracer over `ray`'s columns.
+    pub(in super::super) fn new(scene: &'a Scene, counters: &'a mut Counters, ray: &'a mut OneRay<'_, '_>) -> Self {
+        Self {
+            scene,
+            counters,
+            origin: ray.origin.rows(),
+            direction: ray.direction.rows(),
+            distance: ray.distance.rows(),
+            instance: ray.instance.rows(),
+            primitive: ray.primitive.rows(),
+            uv: ray.uv.rows(),
+            target: ray.target.rows(),
+            transmittance: ray.transmittance.rows(),
+        }
+    }
+
+    /// The radiance that one path through a film position estimates, and the classes of the path that brings the most of
+    /// it.
+    pub(in super::super) fn trace(&mut self, film: Vec2, draws: &mut impl PathDraws) -> (Rgb, StateClass) {
         let scene = self.scene;
-        let mut direction = scene.camera.direction(film_position(scene, key, pixel));
+        let mut direction = scene.camera.direction(film);
         let mut position = scene.camera.origin();
         let mut origin = position;
         let (mut radiance, mut throughput, mut judged, mut scale) = (Rgb::BLACK, Rgb::ONE, Rgb::ONE, 1.0);
         let (mut density, mut kind) = (0.0, VERTEX_LENS);
+        let mut brightest = Brightest::default();
         for depth in 1..=scene.max_depth {
             let Some(point) = self.closest(origin, direction) else {
                 break;
             };
-            radiance += throughput * self.emission(&point, direction, position, density, kind);
+            let met = throughput * self.emission(&point, direction, position, density, kind);
+            radiance += met;
             if depth == scene.max_depth {
+                brightest.see(met, Rgb::BLACK, depth, false);
                 break;
             }
             let scatterer = Scatterer {
@@ -96,30 +107,32 @@ impl Tracer<'_> {
                 material: point.material,
                 direction,
             };
+            draws.reach(depth);
             let model = scene.materials.kind(point.material);
+            let mut connected = Rgb::BLACK;
             if !model.is_discrete()
-                && let Some(connection) = scatterer.connect(scene, key, depth)
+                && let Some(connection) = scatterer.connect(scene, draws.light(depth))
             {
                 let passed = self.transmittance(connection.origin, connection.target);
-                radiance += throughput * (connection.value * passed);
+                connected = throughput * (connection.value * passed);
+                radiance += connected;
             }
-            let outcome = scatterer.scatter(|wi| {
-                let mut stream = key.stream(Purpose::SCATTER, depth);
-                match model {
-                    MaterialKind::Diffuse => scene.materials.sample_diffuse(point.material, wi, stream.next_pair()),
-                    MaterialKind::Conductor => scene.materials.sample_conductor(point.material, wi),
-                    MaterialKind::Dielectric => {
-                        scene.materials.sample_dielectric(point.material, wi, stream.next_f32())
-                    }
+            let outcome = scatterer.scatter(|wi| match model {
+                MaterialKind::Diffuse => scene.materials.sample_diffuse(point.material, wi, draws.scatter(depth)),
+                MaterialKind::Conductor => scene.materials.sample_conductor(point.material, wi),
+                MaterialKind::Dielectric => {
+                    scene.materials.sample_dielectric(point.material, wi, draws.scatter(depth)[0])
                 }
             });
+            let discrete = outcome.as_ref().is_some_and(|(_, outcome)| outcome.discrete);
+            brightest.see(met, connected, depth, discrete);
             let Some((onward, outcome)) = outcome else { break };
             scale *= outcome.relative_ior * outcome.relative_ior;
             judged *= outcome.ratio;
             let survival = roulette::survival(depth, judged, scale);
             let mut ratio = outcome.ratio;
             if survival < 1.0 {
-                if key.stream(Purpose::ROULETTE, depth).next_f32() >= survival {
+                if draws.roulette(depth) >= survival {
                     break;
                 }
                 ratio = ratio / survival;
@@ -135,7 +148,7 @@ impl Tracer<'_> {
             (position, direction) = (point.position, onward);
             origin = offset_origin(point.position, point.geometric_normal, point.offset, direction);
         }
-        radiance
+        (radiance, brightest.class())
     }
 
     /// Light that `point` sends back along the path, weighted against sampling it from the vertex before.

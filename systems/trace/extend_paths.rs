@@ -43,6 +43,7 @@ pub struct Lists<'w, 's> {
     diffuse: Write<'w, 's, DiffuseList, ChainTable>,
     conductor: Write<'w, 's, ConductorList, ChainTable>,
     dielectric: Write<'w, 's, DielectricList, ChainTable>,
+    draw: Write<'w, 's, DrawList, ChainTable>,
 }
 
 /// Appends a vertex to every chain whose ray met a surface, with the light that the surface sends back along the path,
@@ -58,6 +59,7 @@ pub fn extend_paths(
     mut lists: Lists,
 ) {
     let scene = &*scene.0;
+    queues.draw = 0;
     let (chains, directions) = (hits.chains.rows(), hits.directions.rows());
     let (instances, primitives, uvs) = (hits.instances.rows(), hits.primitives.rows(), hits.uvs.rows());
     let lengths = lengths.rows();
@@ -78,7 +80,7 @@ pub fn extend_paths(
         vertices.primitives.rows(),
         vertices.uvs.rows(),
     );
-    let connect = lists.connect.rows();
+    let (connect, draw) = (lists.connect.rows(), lists.draw.rows());
     let (diffuse, conductor, dielectric) = (lists.diffuse.rows(), lists.conductor.rows(), lists.dielectric.rows());
     for ray in 0..queues.rays {
         let instance = instances.at(ray);
@@ -130,6 +132,10 @@ pub fn extend_paths(
 
         if depth >= scene.max_depth {
             continue;
+        }
+        if !draw.is_empty() {
+            draw.put(queues.draw, chain as u32);
+            queues.draw += 1;
         }
         let kind = scene.materials.kind(point.material);
         if !kind.is_discrete() && !connections.is_empty() {

@@ -3,6 +3,7 @@
 mod connect_lights;
 mod continue_paths;
 mod depth_first;
+pub mod draws;
 mod emit_rays;
 mod extend_paths;
 mod intersect_rays;

@@ -1,9 +1,9 @@
 //! Scattering off clear interfaces.
 
 use super::super::tile::{Queues, SceneRef, TilePlace};
+use super::draws::Draws;
 use super::scatter::Outcomes;
-use crate::path::{ChainKey, ChainTable, DielectricList};
-use crate::sampling::Purpose;
+use crate::path::{ChainTable, DielectricList};
 use crate::table::{Read, Rows};
 use bevy_ecs::system::{Res, ResMut};
 
@@ -13,23 +13,18 @@ pub fn scatter_dielectric(
     place: Res<TilePlace>,
     mut queues: ResMut<Queues>,
     list: Read<DielectricList, ChainTable>,
-    keys: Read<ChainKey, ChainTable>,
+    draws: Draws,
     mut outcomes: Outcomes,
 ) {
     let scene = &*scene.0;
     let list = list.rows();
-    let keys = keys.rows();
-    let stream = |chain: usize, depth| place.key(chain, keys.at(chain)).stream(Purpose::SCATTER, depth);
+    let draws = draws.columns(&place);
     let count = std::mem::take(&mut queues.dielectric);
     outcomes.scatter(
         &place,
         &mut queues,
         count,
         |entry| list.at(entry),
-        |material, wi, chain, depth| {
-            scene
-                .materials
-                .sample_dielectric(material, wi, stream(chain, depth).next_f32())
-        },
+        |material, wi, chain, depth| scene.materials.sample_dielectric(material, wi, draws.scatter(chain, depth)[0]),
     );
 }

@@ -1,0 +1,201 @@
+//! The uniform numbers that a path is made of, and where they come from: keyed streams, or the coordinates of a chain.
+
+use super::roulette;
+use crate::chain::{Kernel, to_f32, to_f64};
+use crate::sampling::{Purpose, StreamKey};
+use crate::scene::Scene;
+use glam::Vec2;
+
+/// The numbers that choose a light and a point on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightDraw {
+    /// Chooses the light.
+    pub choice: f64,
+    /// Chooses the point.
+    pub point: [f32; 2],
+}
+
+/// Where a path's numbers come from, vertex by vertex. Each is in [0, 1), and asked for at most once.
+pub trait PathDraws {
+    /// Says that the path has reached a vertex at `depth` that may scatter: what is asked for next is for that vertex.
+    fn reach(&mut self, depth: u32) {
+        let _ = depth;
+    }
+    /// For connecting the vertex at `depth` to a light.
+    fn light(&mut self, depth: u32) -> LightDraw;
+    /// For scattering at the vertex at `depth`.
+    fn scatter(&mut self, depth: u32) -> [f32; 2];
+    /// For Russian roulette after the vertex at `depth`.
+    fn roulette(&mut self, depth: u32) -> f32;
+}
+
+/// Numbers from keyed streams: independent from step to step.
+#[derive(Clone, Copy, Debug)]
+pub struct KeyedDraws(pub StreamKey);
+
+impl PathDraws for KeyedDraws {
+    #[inline]
+    fn light(&mut self, depth: u32) -> LightDraw {
+        let mut stream = self.0.stream(Purpose::LIGHT, depth);
+        let choice = stream.next_f64();
+        LightDraw {
+            choice,
+            point: stream.next_pair(),
+        }
+    }
+    #[inline]
+    fn scatter(&mut self, depth: u32) -> [f32; 2] {
+        self.0.stream(Purpose::SCATTER, depth).next_pair()
+    }
+    #[inline]
+    fn roulette(&mut self, depth: u32) -> f32 {
+        self.0.stream(Purpose::ROULETTE, depth).next_f32()
+    }
+}
+
+/// The primary coordinates of where a path starts on the film, in units of 2⁻⁶⁴ of its width and height.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FilmCoordinates(pub [u64; 2]);
+
+/// The primary coordinates of a vertex: `choice` in units of 2⁻⁶⁴, the others of 2⁻³².
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct VertexCoordinates {
+    /// Chooses a light.
+    pub choice: u64,
+    /// Chooses the point on it.
+    pub light: [u32; 2],
+    /// Chooses where to scatter to.
+    pub scatter: [u32; 2],
+    /// Plays roulette; only from [`roulette::FIRST_DEPTH`] on, 0 before.
+    pub roulette: u32,
+}
+
+impl FilmCoordinates {
+    /// Coordinates that depend on nothing but `key`.
+    #[inline]
+    #[must_use]
+    pub fn independent(key: StreamKey) -> Self {
+        let mut stream = key.stream(Purpose::FILM, 0);
+        Self([stream.next_u64(), stream.next_u64()])
+    }
+
+    /// These coordinates, moved by a small step.
+    #[inline]
+    #[must_use]
+    pub fn perturbed(self, kernel: &Kernel, key: StreamKey) -> Self {
+        let mut stream = key.stream(Purpose::PERTURB, 0);
+        Self(self.0.map(|c| kernel.perturb_wide(c, stream.next_u32())))
+    }
+
+    /// ln of the density of the small step from these to `to`.
+    #[must_use]
+    pub fn log_density(self, kernel: &Kernel, to: Self) -> f64 {
+        let pairs = self.0.into_iter().zip(to.0);
+        pairs.map(|(from, to)| kernel.log_density_wide(from, to)).sum()
+    }
+
+    /// The pixel that these coordinates stand for, and a film position drawn from the filter about its centre with what
+    /// they say beyond the pixel: the position then counts fully for that pixel, as in
+    /// [`film_position`](super::film_position), and every pixel of the film, at its edges too, has the same share of the
+    /// coordinates.
+    #[inline]
+    #[must_use]
+    pub fn on_film(self, scene: &Scene) -> (u32, Vec2) {
+        let place = |c: u64, pixels: u32| {
+            let x = to_f64(c) * f64::from(pixels);
+            // The product can round up to the film's edge.
+            let pixel = (x as u32).min(pixels - 1);
+            (pixel, ((x - f64::from(pixel)) as f32).min(1.0 - f32::EPSILON / 2.0))
+        };
+        let ((x, u), (y, v)) = (place(self.0[0], scene.width), place(self.0[1], scene.height));
+        let center = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+        (y * scene.width + x, center + Vec2::from_array(scene.filter.sample([u, v])))
+    }
+}
+
+impl VertexCoordinates {
+    /// Coordinates of the vertex at `depth` that depend on nothing but `key`.
+    #[inline]
+    #[must_use]
+    pub fn independent(key: StreamKey, depth: u32) -> Self {
+        let mut stream = key.stream(Purpose::SCATTER, depth);
+        let scatter = [stream.next_u32(), stream.next_u32()];
+        let choice = stream.next_u64();
+        let light = [stream.next_u32(), stream.next_u32()];
+        let plays = depth >= roulette::FIRST_DEPTH;
+        Self {
+            choice,
+            light,
+            scatter,
+            roulette: if plays { stream.next_u32() } else { 0 },
+        }
+    }
+
+    /// These coordinates of the vertex at `depth`, moved by a small step.
+    #[inline]
+    #[must_use]
+    pub fn perturbed(self, kernel: &Kernel, key: StreamKey, depth: u32) -> Self {
+        let mut stream = key.stream(Purpose::PERTURB, depth);
+        let scatter = self.scatter.map(|c| kernel.perturb(c, stream.next_u32()));
+        let choice = kernel.perturb_wide(self.choice, stream.next_u32());
+        let light = self.light.map(|c| kernel.perturb(c, stream.next_u32()));
+        let plays = depth >= roulette::FIRST_DEPTH;
+        Self {
+            choice,
+            light,
+            scatter,
+            roulette: if plays {
+                kernel.perturb(self.roulette, stream.next_u32())
+            } else {
+                0
+            },
+        }
+    }
+
+    /// ln of the density of the small step from these to `to` at the vertex at `depth`. Coordinates of lights count where
+    /// the plan has them.
+    #[must_use]
+    pub fn log_density(self, kernel: &Kernel, to: Self, depth: u32, lights: bool) -> f64 {
+        let narrow = |from: [u32; 2], to: [u32; 2]| {
+            kernel.log_density(from[0], to[0]) + kernel.log_density(from[1], to[1])
+        };
+        let mut sum = narrow(self.scatter, to.scatter);
+        if lights {
+            sum += kernel.log_density_wide(self.choice, to.choice) + narrow(self.light, to.light);
+        }
+        if depth >= roulette::FIRST_DEPTH {
+            sum += kernel.log_density(self.roulette, to.roulette);
+        }
+        sum
+    }
+
+    /// How many coordinates the vertex at `depth` has.
+    #[must_use]
+    pub const fn count(depth: u32, lights: bool) -> u32 {
+        2 + if lights { 3 } else { 0 } + if depth >= roulette::FIRST_DEPTH { 1 } else { 0 }
+    }
+
+    /// The numbers that connect to a light.
+    #[inline]
+    #[must_use]
+    pub fn light_draw(self) -> LightDraw {
+        LightDraw {
+            choice: to_f64(self.choice),
+            point: self.light.map(to_f32),
+        }
+    }
+
+    /// The numbers that scatter.
+    #[inline]
+    #[must_use]
+    pub fn scatter_draw(self) -> [f32; 2] {
+        self.scatter.map(to_f32)
+    }
+
+    /// The number that plays roulette.
+    #[inline]
+    #[must_use]
+    pub fn roulette_draw(self) -> f32 {
+        to_f32(self.roulette)
+    }
+}

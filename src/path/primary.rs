@@ -1,0 +1,108 @@
+//! The columns of primary sample space: the uniform numbers that a path is made of (Kelemen, Szirmay-Kalos, Antal and
+//! Csonka 2002).
+//!
+//! Coordinates are integers that stand for u in [0, 1), see [`crate::chain::Kernel`]. Those of the film are chain columns;
+//! those of the vertex at depth d of chain c have number (d − 1) · capacity + c in two tables of the same columns: one for
+//! current states, one for proposals. Where a path ended, its coordinates end: deeper ones are uniform whatever the
+//! state, so they are drawn afresh when a proposal gets there.
+
+use super::draws::VertexCoordinates;
+use crate::columns;
+use crate::table::{Rows, Table};
+use bevy_ecs::component::Component;
+
+/// Marks the rows of the table of current primary coordinates.
+#[derive(Component, Clone, Copy, Debug, Default)]
+pub struct PrimaryTable;
+
+impl Table for PrimaryTable {
+    type Twin = ProposedPrimaryTable;
+}
+
+/// Marks the rows of the table of proposed primary coordinates.
+#[derive(Component, Clone, Copy, Debug, Default)]
+pub struct ProposedPrimaryTable;
+
+impl Table for ProposedPrimaryTable {
+    type Twin = PrimaryTable;
+}
+
+columns! {
+    /// Where on the film the current state starts, in units of 2⁻⁶⁴ of its width and height.
+    pub PrimaryFilm: [u64; 2];
+    /// Where the proposal starts.
+    pub ProposedFilm: [u64; 2];
+    /// The depth of the last vertex that has primary coordinates in the current state.
+    pub PrimaryDepth: u32;
+    /// The depth of the last vertex that has primary coordinates in the proposal.
+    pub ProposedDepth: u32;
+    /// Chooses a light for the vertex, in units of 2⁻⁶⁴.
+    pub PrimaryChoice: u64;
+    /// Chooses a point on the light, in units of 2⁻³².
+    pub PrimaryLight: [u32; 2];
+    /// Chooses where the vertex scatters to, in units of 2⁻³².
+    pub PrimaryScatter: [u32; 2];
+    /// Plays roulette after the vertex, in units of 2⁻³².
+    pub PrimaryRoulette: u32;
+    /// Chains whose new vertex needs primary coordinates.
+    pub DrawList: u32;
+}
+
+/// The coordinates of vertices, as slices. Those of lights and of roulette are empty where the plan has none.
+#[derive(Clone, Copy)]
+pub struct CoordinateColumns<'a> {
+    /// Choices of lights.
+    pub choice: &'a [PrimaryChoice],
+    /// Points on lights.
+    pub light: &'a [PrimaryLight],
+    /// Scattering.
+    pub scatter: &'a [PrimaryScatter],
+    /// Roulette.
+    pub roulette: &'a [PrimaryRoulette],
+}
+
+impl CoordinateColumns<'_> {
+    /// The coordinates number `index`.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, index: usize) -> VertexCoordinates {
+        let lights = !self.choice.is_empty();
+        VertexCoordinates {
+            choice: if lights { self.choice.at(index) } else { 0 },
+            light: if lights { self.light.at(index) } else { [0; 2] },
+            scatter: self.scatter.at(index),
+            roulette: if self.roulette.is_empty() {
+                0
+            } else {
+                self.roulette.at(index)
+            },
+        }
+    }
+}
+
+/// The coordinates of vertices, as slices to write to.
+pub struct CoordinateColumnsMut<'a> {
+    /// Choices of lights.
+    pub choice: &'a mut [PrimaryChoice],
+    /// Points on lights.
+    pub light: &'a mut [PrimaryLight],
+    /// Scattering.
+    pub scatter: &'a mut [PrimaryScatter],
+    /// Roulette.
+    pub roulette: &'a mut [PrimaryRoulette],
+}
+
+impl CoordinateColumnsMut<'_> {
+    /// Sets the coordinates number `index`.
+    #[inline]
+    pub fn put(&mut self, index: usize, coordinates: VertexCoordinates) {
+        if !self.choice.is_empty() {
+            self.choice.put(index, coordinates.choice);
+            self.light.put(index, coordinates.light);
+        }
+        self.scatter.put(index, coordinates.scatter);
+        if !self.roulette.is_empty() {
+            self.roulette.put(index, coordinates.roulette);
+        }
+    }
+}

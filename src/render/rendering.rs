@@ -1,0 +1,62 @@
+//! What all renders have in common, whether their samples are independent or states of chains.
+
+use super::{ChainRender, TileWorld};
+use crate::film::{Picture, Tally};
+use crate::plan::{Plan, SystemSpec};
+use crate::scene::Scene;
+use crate::systems::SystemCost;
+use crate::systems::tile::Counters;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// A render under way.
+pub trait Rendering {
+    /// The plan that its worlds were built from.
+    fn plan(&self) -> &Plan;
+    /// The scene.
+    fn scene(&self) -> &Arc<Scene>;
+    /// Steps that every chain has taken.
+    fn steps(&self) -> u64;
+    /// Chains of the whole render.
+    fn chains(&self) -> u32;
+    /// Threads at work.
+    fn threads(&self) -> usize;
+    /// Tiles of the whole render.
+    fn tile_count(&self) -> usize;
+    /// Runs `steps` more steps of every chain, all tiles to the same step; `done` hears of every tile that has finished,
+    /// by its number of samples or mutations.
+    fn burst(&mut self, steps: u64, done: &(dyn Fn(u64) + Sync));
+    /// What all worlds have counted.
+    fn counters(&self) -> Counters;
+    /// What every system has cost, summed over threads, in the order in which systems run.
+    fn costs(&self) -> Vec<SystemCost>;
+    /// Wall time that threads have spent in steps, summed over them.
+    fn busy_time(&self) -> Duration;
+    /// The picture so far, with its standard errors.
+    fn picture(&self) -> Picture;
+    /// What films could not take as it was.
+    fn tally(&self) -> Tally;
+    /// The render itself, if it is one with chains.
+    fn as_chains(&self) -> Option<&ChainRender> {
+        None
+    }
+    /// Lets `look` see every world.
+    fn for_each_world(&self, look: &mut dyn FnMut(usize, &mut TileWorld));
+}
+
+/// Adds the costs of several worlds up, in the order of the plan.
+pub(super) fn merge_costs(plan: &Plan, worlds: impl Iterator<Item = Vec<SystemCost>>) -> Vec<SystemCost> {
+    let mut total: Vec<SystemCost> = Vec::new();
+    for cost in worlds.flatten() {
+        match total.iter_mut().find(|sum| sum.spec == cost.spec) {
+            Some(sum) => {
+                sum.runs += cost.runs;
+                sum.nanoseconds += cost.nanoseconds;
+            }
+            None => total.push(cost),
+        }
+    }
+    let position = |spec: SystemSpec| plan.tile.systems.iter().position(|system| system.spec == spec);
+    total.sort_by_key(|cost| position(cost.spec));
+    total
+}

@@ -1,0 +1,95 @@
+//! `identity`: the current path again. It changes nothing, and so must give the same light, bit for bit, and be taken every
+//! time: a test of everything that re-traces paths, and the simplest mutation to copy from.
+//!
+//! | setting | meaning | default |
+//! |---|---|---|
+//! | `weight` | how often it is tried, relative to the other mutations | 0: not at all |
+
+use super::super::chains::{Keys, MutationLists};
+use super::super::list::{DRAW_IDENTITIES, PROPOSE_IDENTITIES};
+use super::super::tile::{Queues, TilePlace};
+use super::super::trace::draws::{CoordinatesMut, CurrentCoordinates};
+use super::proposal::Proposals;
+use crate::chain::{ChosenMutation, MutationList};
+use crate::path::{
+    ChainTable, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth, ProposedPrimaryTable,
+    VertexCoordinates,
+};
+use crate::plan::{Mutation, Registered, StateSpace, SystemPlan};
+use crate::table::{Read, Rows, Write};
+use bevy_ecs::system::Res;
+use serde::{Deserialize, Serialize};
+
+/// Settings of `identity`.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Identity {
+    /// How often it is tried, relative to the other mutations.
+    pub weight: f32,
+}
+
+impl Mutation for Identity {
+    const NAME: &'static str = "identity";
+    const ABOUT: &'static str = "the current path again: for tests";
+    const SPACE: StateSpace = StateSpace::PRIMARY;
+
+    fn weight(&self) -> f32 {
+        self.weight
+    }
+
+    fn systems(&self) -> Vec<SystemPlan> {
+        vec![
+            SystemPlan::new(PROPOSE_IDENTITIES, "the path starts where it starts"),
+            SystemPlan::new(DRAW_IDENTITIES, "and goes where it goes"),
+        ]
+    }
+}
+
+/// Starts the chains that stay where they are.
+pub fn propose_identities(
+    mutation: Res<Registered<Identity>>,
+    lists: Res<MutationLists>,
+    list: Read<MutationList, ChainTable>,
+    film: Read<PrimaryFilm, ChainTable>,
+    mut proposals: Proposals,
+) {
+    let (list, film, mut proposals) = (list.rows(), film.rows(), proposals.columns());
+    for entry in lists.entries(mutation.number) {
+        let chain = list.at(entry) as usize;
+        proposals.start(chain, FilmCoordinates(film.at(chain)), 0.0);
+    }
+}
+
+/// Copies the coordinates of the vertices of chains that stay where they are.
+pub fn draw_identities(
+    mutation: Res<Registered<Identity>>,
+    place: Res<TilePlace>,
+    queues: Res<Queues>,
+    list: Read<DrawList, ChainTable>,
+    chosen: Read<ChosenMutation, ChainTable>,
+    lengths: Read<PathLength, ChainTable>,
+    current_depths: Read<PrimaryDepth, ChainTable>,
+    keys: Keys,
+    current: CurrentCoordinates,
+    mut proposed: CoordinatesMut<ProposedPrimaryTable>,
+    mut depths: Write<ProposedDepth, ChainTable>,
+) {
+    let (list, chosen, lengths, keys) = (list.rows(), chosen.rows(), lengths.rows(), keys.columns());
+    let (current_depths, current) = (current_depths.rows(), current.columns());
+    let (mut proposed, depths) = (proposed.columns(), depths.rows());
+    for entry in 0..queues.draw {
+        let chain = list.at(entry) as usize;
+        if chosen.at(chain) as usize != mutation.number {
+            continue;
+        }
+        let depth = lengths.at(chain);
+        let vertex = place.vertex(chain, depth - 1);
+        // A path without light has no state to be copied: before its first one, a chain draws.
+        let coordinates = if depth <= current_depths.at(chain) {
+            current.at(vertex)
+        } else {
+            VertexCoordinates::independent(keys.at(chain), depth)
+        };
+        proposed.put(vertex, coordinates);
+        depths.put(chain, depth);
+    }
+}

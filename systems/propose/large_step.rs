@@ -1,0 +1,97 @@
+//! `large_step`: a path that has nothing to do with the current one. All its primary coordinates are drawn afresh, as path
+//! tracing would (Kelemen, Szirmay-Kalos, Antal and Csonka 2002, section 4).
+//!
+//! | setting | meaning | default | others use |
+//! |---|---|---|---|
+//! | `weight` | how often it is tried, relative to the other mutations | 0.3 | 0.05 to 0.5 |
+//!
+//! It is what lets a chain reach any light, whatever else it does: without it, chains stay near their seeds. Where light is
+//! easy to find, more of it costs little; where it is hard, most large steps find nothing.
+//!
+//! T(x→y) = 1 both ways: primary coordinates are uniform.
+
+use super::super::chains::{Keys, MutationLists};
+use super::super::list::{DRAW_LARGE_STEPS, PROPOSE_LARGE_STEPS};
+use super::super::tile::{Queues, TilePlace};
+use super::super::trace::draws::CoordinatesMut;
+use super::proposal::Proposals;
+use crate::chain::{ChosenMutation, MutationList};
+use crate::path::{
+    ChainTable, DrawList, FilmCoordinates, PathLength, ProposedDepth, ProposedPrimaryTable, VertexCoordinates,
+};
+use crate::plan::{Mutation, Registered, StateSpace, SystemPlan};
+use crate::table::{Read, Rows, Write};
+use bevy_ecs::system::Res;
+use serde::{Deserialize, Serialize};
+
+/// Settings of `large_step`.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct LargeStep {
+    /// How often it is tried, relative to the other mutations.
+    pub weight: f32,
+}
+
+impl Default for LargeStep {
+    fn default() -> Self {
+        Self { weight: 0.3 }
+    }
+}
+
+impl Mutation for LargeStep {
+    const NAME: &'static str = "large_step";
+    const ABOUT: &'static str = "a new path, independent of the current one";
+    const SPACE: StateSpace = StateSpace::PRIMARY;
+    const INDEPENDENT: bool = true;
+
+    fn weight(&self) -> f32 {
+        self.weight
+    }
+
+    fn systems(&self) -> Vec<SystemPlan> {
+        vec![
+            SystemPlan::new(PROPOSE_LARGE_STEPS, "bootstraps and large steps start anywhere on the film"),
+            SystemPlan::new(DRAW_LARGE_STEPS, "and go on anywhere"),
+        ]
+    }
+}
+
+/// Draws where on the film the chains that take a large step start.
+pub fn propose_large_steps(
+    mutation: Res<Registered<LargeStep>>,
+    lists: Res<MutationLists>,
+    list: Read<MutationList, ChainTable>,
+    keys: Keys,
+    mut proposals: Proposals,
+) {
+    let (list, keys, mut proposals) = (list.rows(), keys.columns(), proposals.columns());
+    for entry in lists.entries(mutation.number) {
+        let chain = list.at(entry) as usize;
+        proposals.start(chain, FilmCoordinates::independent(keys.at(chain)), 0.0);
+    }
+}
+
+/// Draws the coordinates of the new vertices of chains that take a large step.
+pub fn draw_large_steps(
+    mutation: Res<Registered<LargeStep>>,
+    place: Res<TilePlace>,
+    queues: Res<Queues>,
+    list: Read<DrawList, ChainTable>,
+    chosen: Read<ChosenMutation, ChainTable>,
+    lengths: Read<PathLength, ChainTable>,
+    keys: Keys,
+    mut coordinates: CoordinatesMut<ProposedPrimaryTable>,
+    mut depths: Write<ProposedDepth, ChainTable>,
+) {
+    let (list, chosen, lengths, keys) = (list.rows(), chosen.rows(), lengths.rows(), keys.columns());
+    let (mut coordinates, depths) = (coordinates.columns(), depths.rows());
+    for entry in 0..queues.draw {
+        let chain = list.at(entry) as usize;
+        if chosen.at(chain) as usize != mutation.number {
+            continue;
+        }
+        let depth = lengths.at(chain);
+        let drawn = VertexCoordinates::independent(keys.at(chain), depth);
+        coordinates.put(place.vertex(chain, depth - 1), drawn);
+        depths.put(chain, depth);
+    }
+}

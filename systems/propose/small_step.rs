@@ -1,0 +1,149 @@
+//! `small_step`: a path near the current one. Every primary coordinate moves by a small step of either sign, and wraps around
+//! (Kelemen, Szirmay-Kalos, Antal and Csonka 2002, section 4): its size is distributed as 1/|d| between the two bounds, so
+//! that steps of every order of magnitude between them are as likely.
+//!
+//! | setting | meaning | default | others use |
+//! |---|---|---|---|
+//! | `weight` | how often it is tried, relative to the other mutations | 0.7 | 0.5 to 0.95 |
+//! | `smallest` | the smallest step of a coordinate | 1/1024 | 1/1024 to 1/256 |
+//! | `largest` | the largest step of a coordinate, at most 0.5 | 1/64 | 1/64 to 1/16 |
+//!
+//! Coordinates beyond the end of the current path are uniform whatever the state, so they are drawn afresh. T is symmetric:
+//! the product over the coordinates that both paths have.
+
+use super::super::chains::{Keys, MutationLists};
+use super::super::list::{DRAW_SMALL_STEPS, PROPOSE_SMALL_STEPS};
+use super::super::tile::{Queues, TilePlace};
+use super::super::trace::draws::{CoordinatesMut, CurrentCoordinates};
+use super::proposal::Proposals;
+use crate::chain::{ChosenMutation, CommonDensity, Kernel, MutationList};
+use crate::path::{
+    ChainTable, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth, ProposedPrimaryTable,
+    VertexCoordinates,
+};
+use crate::plan::{Mutation, Registered, StateSpace, SystemPlan};
+use crate::table::{Read, Rows, Write};
+use bevy_ecs::system::Res;
+use serde::{Deserialize, Serialize};
+
+/// Settings of `small_step`.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct SmallStep {
+    /// How often it is tried, relative to the other mutations.
+    pub weight: f32,
+    /// The smallest step of a coordinate.
+    pub smallest: f32,
+    /// The largest step of a coordinate.
+    pub largest: f32,
+}
+
+impl Default for SmallStep {
+    fn default() -> Self {
+        Self {
+            weight: 0.7,
+            smallest: 1.0 / 1024.0,
+            largest: 1.0 / 64.0,
+        }
+    }
+}
+
+impl SmallStep {
+    /// The distribution of steps.
+    ///
+    /// # Panics
+    /// Never for settings that were checked.
+    #[must_use]
+    pub fn kernel(&self) -> Kernel {
+        match Kernel::new(self.smallest, self.largest) {
+            Ok(kernel) => kernel,
+            Err(error) => panic!("settings are checked before they are planned: {error}"),
+        }
+    }
+}
+
+impl Mutation for SmallStep {
+    const NAME: &'static str = "small_step";
+    const ABOUT: &'static str = "a path near the current one: every coordinate moves a little";
+    const SPACE: StateSpace = StateSpace::PRIMARY;
+
+    fn weight(&self) -> f32 {
+        self.weight
+    }
+
+    fn check(&self) -> Result<(), String> {
+        Kernel::new(self.smallest, self.largest).map(|_| ()).map_err(|error| error.to_string())
+    }
+
+    fn systems(&self) -> Vec<SystemPlan> {
+        vec![
+            SystemPlan::new(PROPOSE_SMALL_STEPS, "small steps start near where the path starts"),
+            SystemPlan::new(DRAW_SMALL_STEPS, "and go on near where it goes"),
+        ]
+    }
+}
+
+/// Moves where on the film the chains that take a small step start.
+pub fn propose_small_steps(
+    mutation: Res<Registered<SmallStep>>,
+    lists: Res<MutationLists>,
+    list: Read<MutationList, ChainTable>,
+    keys: Keys,
+    film: Read<PrimaryFilm, ChainTable>,
+    mut proposals: Proposals,
+) {
+    let kernel = mutation.settings.kernel();
+    let (list, keys, film, mut proposals) = (list.rows(), keys.columns(), film.rows(), proposals.columns());
+    for entry in lists.entries(mutation.number) {
+        let chain = list.at(entry) as usize;
+        let current = FilmCoordinates(film.at(chain));
+        let moved = current.perturbed(&kernel, keys.at(chain));
+        let density = if proposals.wants_common() {
+            current.log_density(&kernel, moved)
+        } else {
+            0.0
+        };
+        proposals.start(chain, moved, density);
+    }
+}
+
+/// Moves the coordinates of the new vertices of chains that take a small step; where the current path has ended, draws them.
+pub fn draw_small_steps(
+    mutation: Res<Registered<SmallStep>>,
+    place: Res<TilePlace>,
+    queues: Res<Queues>,
+    list: Read<DrawList, ChainTable>,
+    chosen: Read<ChosenMutation, ChainTable>,
+    lengths: Read<PathLength, ChainTable>,
+    current_depths: Read<PrimaryDepth, ChainTable>,
+    keys: Keys,
+    current: CurrentCoordinates,
+    mut proposed: CoordinatesMut<ProposedPrimaryTable>,
+    mut depths: Write<ProposedDepth, ChainTable>,
+    mut common: Write<CommonDensity, ChainTable>,
+) {
+    let kernel = mutation.settings.kernel();
+    let (list, chosen, lengths, keys) = (list.rows(), chosen.rows(), lengths.rows(), keys.columns());
+    let (current_depths, current) = (current_depths.rows(), current.columns());
+    let (mut proposed, depths, common) = (proposed.columns(), depths.rows(), common.rows());
+    let lights = !current.choice.is_empty();
+    for entry in 0..queues.draw {
+        let chain = list.at(entry) as usize;
+        if chosen.at(chain) as usize != mutation.number {
+            continue;
+        }
+        let (depth, key) = (lengths.at(chain), keys.at(chain));
+        let vertex = place.vertex(chain, depth - 1);
+        let moved = if depth <= current_depths.at(chain) {
+            let from = current.at(vertex);
+            let moved = from.perturbed(&kernel, key, depth);
+            if !common.is_empty() {
+                common.put(chain, common.at(chain) + from.log_density(&kernel, moved, depth, lights));
+            }
+            moved
+        } else {
+            VertexCoordinates::independent(key, depth)
+        };
+        proposed.put(vertex, moved);
+        depths.put(chain, depth);
+    }
+}

@@ -1,0 +1,125 @@
+//! Where the systems of the trace loop get a path's numbers from: primary coordinates where the plan has them, keyed streams
+//! elsewhere.
+
+use super::super::tile::TilePlace;
+use crate::path::{
+    ChainKey, ChainTable, CoordinateColumns, CoordinateColumnsMut, KeyedDraws, LightDraw, PathDraws, PrimaryChoice,
+    PrimaryLight, PrimaryRoulette, PrimaryScatter, PrimaryTable, ProposedPrimaryTable,
+};
+use crate::table::{Read, Rows, Table, Write};
+use bevy_ecs::system::SystemParam;
+
+/// The vertex coordinates of the table marked `T`, to read.
+#[derive(SystemParam)]
+pub struct Coordinates<'w, 's, T: Table> {
+    choice: Read<'w, 's, PrimaryChoice, T>,
+    light: Read<'w, 's, PrimaryLight, T>,
+    scatter: Read<'w, 's, PrimaryScatter, T>,
+    roulette: Read<'w, 's, PrimaryRoulette, T>,
+}
+
+/// The coordinates of current states.
+pub type CurrentCoordinates<'w, 's> = Coordinates<'w, 's, PrimaryTable>;
+/// The coordinates of proposals.
+pub type ProposedCoordinates<'w, 's> = Coordinates<'w, 's, ProposedPrimaryTable>;
+
+impl<T: Table> Coordinates<'_, '_, T> {
+    /// The columns as slices.
+    #[must_use]
+    pub fn columns(&self) -> CoordinateColumns<'_> {
+        CoordinateColumns {
+            choice: self.choice.rows(),
+            light: self.light.rows(),
+            scatter: self.scatter.rows(),
+            roulette: self.roulette.rows(),
+        }
+    }
+}
+
+/// The vertex coordinates of the table marked `T`, to write.
+#[derive(SystemParam)]
+pub struct CoordinatesMut<'w, 's, T: Table> {
+    choice: Write<'w, 's, PrimaryChoice, T>,
+    light: Write<'w, 's, PrimaryLight, T>,
+    scatter: Write<'w, 's, PrimaryScatter, T>,
+    roulette: Write<'w, 's, PrimaryRoulette, T>,
+}
+
+impl<T: Table> CoordinatesMut<'_, '_, T> {
+    /// The columns as slices.
+    #[must_use]
+    pub fn columns(&mut self) -> CoordinateColumnsMut<'_> {
+        CoordinateColumnsMut {
+            choice: self.choice.rows(),
+            light: self.light.rows(),
+            scatter: self.scatter.rows(),
+            roulette: self.roulette.rows(),
+        }
+    }
+}
+
+/// What a path's numbers are read from.
+#[derive(SystemParam)]
+pub struct Draws<'w, 's> {
+    keys: Read<'w, 's, ChainKey, ChainTable>,
+    coordinates: ProposedCoordinates<'w, 's>,
+}
+
+/// [`Draws`] as slices.
+pub struct DrawColumns<'a> {
+    place: TilePlace,
+    keys: &'a [ChainKey],
+    coordinates: CoordinateColumns<'a>,
+}
+
+impl Draws<'_, '_> {
+    /// The columns as slices, for the tile at `place`.
+    #[must_use]
+    pub fn columns(&self, place: &TilePlace) -> DrawColumns<'_> {
+        DrawColumns {
+            place: *place,
+            keys: self.keys.rows(),
+            coordinates: self.coordinates.columns(),
+        }
+    }
+}
+
+impl DrawColumns<'_> {
+    /// The numbers that connect the vertex at `depth` of `chain` to a light.
+    #[inline]
+    #[must_use]
+    pub fn light(&self, chain: usize, depth: u32) -> LightDraw {
+        if self.coordinates.scatter.is_empty() {
+            self.keyed(chain).light(depth)
+        } else {
+            self.coordinates.at(self.place.vertex(chain, depth - 1)).light_draw()
+        }
+    }
+
+    /// The numbers that scatter at the vertex at `depth` of `chain`.
+    #[inline]
+    #[must_use]
+    pub fn scatter(&self, chain: usize, depth: u32) -> [f32; 2] {
+        if self.coordinates.scatter.is_empty() {
+            self.keyed(chain).scatter(depth)
+        } else {
+            self.coordinates.at(self.place.vertex(chain, depth - 1)).scatter_draw()
+        }
+    }
+
+    /// The number that plays roulette after the vertex at `depth` of `chain`.
+    #[inline]
+    #[must_use]
+    pub fn roulette(&self, chain: usize, depth: u32) -> f32 {
+        if self.coordinates.scatter.is_empty() {
+            self.keyed(chain).roulette(depth)
+        } else {
+            self.coordinates.at(self.place.vertex(chain, depth - 1)).roulette_draw()
+        }
+    }
+
+    #[inline]
+    fn keyed(&self, chain: usize) -> KeyedDraws {
+        KeyedDraws(self.place.key(chain, self.keys.at(chain)))
+    }
+}
