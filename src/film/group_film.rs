@@ -165,7 +165,7 @@ impl GroupFilm {
     #[must_use]
     pub fn sum(&self, pixel: u32) -> [f64; 3] {
         match self.sums.get(pixel as usize) {
-            // Nearly always, and ten times as fast.
+            // Nearly always, and without wide arithmetic.
             Some(sums) if self.spilled.is_empty() => sums.map(|s| s as f64 * STEP),
             _ => self.total(pixel).map(to_f64),
         }
