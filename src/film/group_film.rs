@@ -5,12 +5,13 @@
 //! [`super::Film`] takes 128.
 
 use super::accumulate::Splat;
-use super::fixed::power_of_two;
 use super::tally::{FilmError, Tally};
 use std::collections::BTreeMap;
 
 /// Bits after the binary point of a sum.
-const FRACTION_BITS: i32 = 40;
+const FRACTION_BITS: u32 = 40;
+/// The value of one step: a power of two, so that multiplying by it is exact.
+const STEP: f64 = 1.0 / (1_u64 << FRACTION_BITS) as f64;
 /// The largest magnitude of a channel that is added as it is.
 const LIMIT: f32 = (1 << 20) as f32;
 /// A sum whose magnitude passes this moves to the spilled sums. One more splat is at most 2⁶⁰, so no addition overflows.
@@ -114,18 +115,16 @@ impl GroupFilm {
                 tally.outside += 1;
                 continue;
             };
-            let (mut saturated, mut vanished) = (false, false);
-            for (channel, v) in splat.value.to_array().into_iter().enumerate() {
-                let steps = steps(v.clamp(-LIMIT, LIMIT));
-                saturated |= v.abs() > LIMIT;
-                vanished |= steps == 0 && v != 0.0;
-                sum[channel] += steps;
-                if sum[channel].unsigned_abs() > SPILL_ABOVE {
-                    spill(&mut self.spilled, splat.pixel, channel, &mut sum[channel]);
-                }
+            let value = splat.value.to_array();
+            let steps = value.map(steps);
+            for (sum, steps) in sum.iter_mut().zip(steps) {
+                *sum += steps;
             }
-            tally.saturated += u64::from(saturated);
-            tally.vanished += u64::from(vanished);
+            if sum.iter().any(|s| s.unsigned_abs() > SPILL_ABOVE) {
+                spill(&mut self.spilled, splat.pixel, sum);
+            }
+            tally.saturated += u64::from(value.iter().any(|v| v.abs() > LIMIT));
+            tally.vanished += u64::from(steps.iter().zip(value).any(|(&s, v)| s == 0 && v != 0.0));
         }
         self.tally.add(&tally);
         tally
@@ -143,15 +142,13 @@ impl GroupFilm {
                 second: sizes[1],
             });
         }
-        for (pixel, (sum, added)) in self.sums.iter_mut().zip(&other.sums).enumerate() {
-            for (channel, (sum, &added)) in sum.iter_mut().zip(added).enumerate() {
-                // Two magnitudes of 2⁶² may meet at 2⁶³, which an i64 does not hold.
-                if let Some(total) = sum.checked_add(added).filter(|t| t.unsigned_abs() <= SPILL_ABOVE) {
-                    *sum = total;
-                } else {
-                    spill(&mut self.spilled, pixel as u32, channel, sum);
-                    *sum = added;
-                }
+        for (pixel, (sums, added)) in self.sums.iter_mut().zip(&other.sums).enumerate() {
+            let fits = |(s, a): (&i64, &i64)| s.checked_add(*a).is_some_and(|t| t.unsigned_abs() <= SPILL_ABOVE);
+            if !sums.iter().zip(added).all(fits) {
+                spill(&mut self.spilled, pixel as u32, sums);
+            }
+            for (sum, &added) in sums.iter_mut().zip(added) {
+                *sum += added;
             }
         }
         for (&pixel, added) in &other.spilled {
@@ -167,7 +164,11 @@ impl GroupFilm {
     /// The sums of a pixel, each the `f64` nearest to the exact one; zeros for a pixel that the film does not have.
     #[must_use]
     pub fn sum(&self, pixel: u32) -> [f64; 3] {
-        self.total(pixel).map(to_f64)
+        match self.sums.get(pixel as usize) {
+            // Nearly always, and without wide arithmetic.
+            Some(sums) if self.spilled.is_empty() => sums.map(|s| s as f64 * STEP),
+            _ => self.total(pixel).map(to_f64),
+        }
     }
 
     /// The exact sums of a pixel, in steps of 2⁻⁴⁰.
@@ -205,35 +206,37 @@ impl PartialEq for GroupFilm {
 
 impl Eq for GroupFilm {}
 
-/// A value of magnitude at most [`LIMIT`] in steps of 2⁻⁴⁰, rounded to nearest, ties to even.
+/// A finite value, brought into the limits, in steps of 2⁻⁴⁰, rounded to nearest, ties to even.
 #[inline]
 fn steps(value: f32) -> i64 {
-    /// From here up, an `f64` has no fraction.
-    const WHOLE: f64 = (1_u64 << 52) as f64;
+    const STEPS_OF_ONE: f64 = (1_u64 << FRACTION_BITS) as f64;
+    /// An `f64` of about this size has no room for a fraction, so adding this rounds, and as wanted. (The library's
+    /// function is a call where the processor is not known to have an instruction for it.)
+    const WHOLE: f64 = (3_u64 << 51) as f64;
     // Exact: a power of two.
-    let scaled = f64::from(value) * power_of_two(FRACTION_BITS);
-    let magnitude = scaled.abs();
-    // Adding 2⁵² leaves no room for a fraction, and addition rounds as wanted. (The library's function is a call where
-    // the processor is not known to round.) An f32 above 2⁻¹⁷ steps has no fraction here anyway.
-    let rounded = if magnitude < WHOLE {
-        (magnitude + WHOLE) - WHOLE
+    let scaled = f64::from(value.clamp(-LIMIT, LIMIT)) * STEPS_OF_ONE;
+    // From 2²³ on, an f32 has no fraction by itself; from 2⁵¹ on, it would not fit beside the constant.
+    let rounded = if scaled.abs() < (1 << 30) as f64 {
+        (scaled + WHOLE) - WHOLE
     } else {
-        magnitude
+        scaled
     };
-    rounded.copysign(scaled) as i64
+    rounded as i64
 }
 
 /// Steps to the value they stand for, rounded once.
 pub(super) fn to_f64(steps: i128) -> f64 {
-    steps as f64 * power_of_two(-FRACTION_BITS)
+    steps as f64 * STEP
 }
 
-/// Moves a sum out of the film's table; a film whose values are of order one never comes here.
+/// Moves a pixel's sums out of the film's table; a film whose values are of order one never comes here.
 #[cold]
 #[inline(never)]
-fn spill(spilled: &mut BTreeMap<u32, [i128; 3]>, pixel: u32, channel: usize, sum: &mut i64) {
-    let total = &mut spilled.entry(pixel).or_default()[channel];
-    *total = total.saturating_add(i128::from(std::mem::take(sum)));
+fn spill(spilled: &mut BTreeMap<u32, [i128; 3]>, pixel: u32, sums: &mut [i64; 3]) {
+    let totals = spilled.entry(pixel).or_default();
+    for (total, sum) in totals.iter_mut().zip(std::mem::take(sums)) {
+        *total = total.saturating_add(i128::from(sum));
+    }
 }
 
 #[cfg(test)]

@@ -4,8 +4,6 @@ use super::*;
 use crate::color::Rgb;
 use proptest::prelude::*;
 
-const STEP: f64 = 1.0 / (1_u64 << 40) as f64;
-
 fn film() -> GroupFilm {
     GroupFilm::new(5, 4).expect("a small film")
 }
@@ -59,6 +57,7 @@ fn values_are_rounded_to_the_nearest_step_and_ties_to_even_over_every_exponent()
 
 #[test]
 fn resolution_and_limits_are_those_documented() {
+    assert_eq!((STEP, LIMIT), (2.0_f64.recip() / (1_u64 << 39) as f64, 1_048_576.0));
     let exact = [1.0, 0.1, 1e-5, -3.25e-5, 7.629_395e-6, 1_048_576.0, 999_999.9];
     for v in exact {
         let film = one_pixel(&[v]);
