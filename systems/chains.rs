@@ -264,7 +264,10 @@ impl ChainStatistics {
     /// Counts what mutation `number` came to in a state of class `left`.
     #[inline]
     pub fn book(&mut self, number: usize, left: StateClass, accepted: bool, impossible: bool) {
-        if let Some(count) = self.proposals.get_mut(number * StateClass::LENGTHS + left.length_class()) {
+        if let Some(count) = self
+            .proposals
+            .get_mut(number * StateClass::LENGTHS + left.length_class())
+        {
             count.proposed += 1;
             count.accepted += u64::from(accepted);
             count.impossible += u64::from(impossible);

@@ -24,7 +24,11 @@ impl StateClass {
     #[must_use]
     pub const fn new(block: u32, length: u32, signature: Signature) -> Self {
         let block = if block < 256 { block } else { 255 };
-        let length = if length < Self::MAX_LENGTH { length } else { Self::MAX_LENGTH };
+        let length = if length < Self::MAX_LENGTH {
+            length
+        } else {
+            Self::MAX_LENGTH
+        };
         Self(block | length << 8 | signature.0 << 20)
     }
 
@@ -108,14 +112,20 @@ impl Signature {
     /// The signature of this number.
     #[must_use]
     pub const fn of_number(number: usize) -> Self {
-        Self(if number == 0 || number >= Self::COUNT { 1 } else { number as u32 })
+        Self(if number == 0 || number >= Self::COUNT {
+            1
+        } else {
+            number as u32
+        })
     }
 
     /// The signature in letters: `E D S … L`.
     #[must_use]
     pub fn name(self) -> String {
         let vertices = self.0.checked_ilog2().unwrap_or(0);
-        let letters = (0..vertices).rev().map(|bit| if self.0 >> bit & 1 == 1 { 'S' } else { 'D' });
+        let letters = (0..vertices)
+            .rev()
+            .map(|bit| if self.0 >> bit & 1 == 1 { 'S' } else { 'D' });
         let mut name = String::from("E");
         name.extend(letters);
         if vertices == Self::KEPT {

@@ -109,7 +109,10 @@ impl FilmCoordinates {
         };
         let ((x, u), (y, v)) = (place(self.0[0], scene.width), place(self.0[1], scene.height));
         let center = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
-        (y * scene.width + x, center + Vec2::from_array(scene.filter.sample([u, v])))
+        (
+            y * scene.width + x,
+            center + Vec2::from_array(scene.filter.sample([u, v])),
+        )
     }
 }
 
@@ -156,9 +159,8 @@ impl VertexCoordinates {
     /// the plan has them.
     #[must_use]
     pub fn log_density(self, kernel: &Kernel, to: Self, depth: u32, lights: bool) -> f64 {
-        let narrow = |from: [u32; 2], to: [u32; 2]| {
-            kernel.log_density(from[0], to[0]) + kernel.log_density(from[1], to[1])
-        };
+        let narrow =
+            |from: [u32; 2], to: [u32; 2]| kernel.log_density(from[0], to[0]) + kernel.log_density(from[1], to[1]);
         let mut sum = narrow(self.scatter, to.scatter);
         if lights {
             sum += kernel.log_density_wide(self.choice, to.choice) + narrow(self.light, to.light);

@@ -180,7 +180,9 @@ pub fn chain_tile(
     let chains = &mut tables[0];
     chains.is_state = true;
     core_columns(chains, densities);
-    let selective = mutations.iter().any(|m| m.mutation.is_selective() && m.mutation.weight() > 0.0);
+    let selective = mutations
+        .iter()
+        .any(|m| m.mutation.is_selective() && m.mutation.weight() > 0.0);
     let mut all = core_before();
     for planned in mutations {
         all.extend(planned.mutation.systems());

@@ -107,9 +107,11 @@ impl Plan {
                 path_tracing::tables(scene, &effects),
                 options.tile_size,
             ),
-            Technique::PtReference => {
-                TilePlan::new(reference::systems(&effects), reference::tables(&effects), options.tile_size)
-            }
+            Technique::PtReference => TilePlan::new(
+                reference::systems(&effects),
+                reference::tables(&effects),
+                options.tile_size,
+            ),
             Technique::Pssmlt => {
                 let mutations = choose_mutations(&options.mutations, StateSpace::PRIMARY, &effects)?;
                 let counts = options.chains.counts(scene.pixel_count());

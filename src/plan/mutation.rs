@@ -156,7 +156,10 @@ impl<M: Mutation> AnyMutation for M {
     }
     fn with(&self, key: &str, value: &str) -> Result<Arc<dyn AnyMutation>, String> {
         let mut settings = AnyMutation::settings(self);
-        let known: Vec<String> = settings.as_object().map(|map| map.keys().cloned().collect()).unwrap_or_default();
+        let known: Vec<String> = settings
+            .as_object()
+            .map(|map| map.keys().cloned().collect())
+            .unwrap_or_default();
         let Some(entry) = settings.get_mut(key) else {
             let hint = nearest_name(key, known.iter().map(String::as_str));
             return Err(format!("`{}` has no setting `{key}`: {hint}", M::NAME));

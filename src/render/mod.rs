@@ -1,6 +1,7 @@
 //! Rendering: tiles built from a plan, dealt to threads, burst by burst.
 
 mod built;
+mod chain_run;
 mod chains;
 mod deal;
 mod driver;
@@ -9,9 +10,10 @@ mod rendering;
 mod tile_world;
 
 pub use built::{Built, BuiltColumn, BuiltTable, short};
-pub use chains::{ChainRender, class_name};
+pub use chain_run::ChainRun;
+pub use chains::ChainRender;
 pub use driver::{Budget, Outcome, Progress, Stop, drive};
-pub use group::Group;
+pub use group::Start;
 pub use rendering::Rendering;
 pub use tile_world::TileWorld;
 
@@ -153,7 +155,10 @@ impl Rendering for Render {
     }
 
     fn costs(&self) -> Vec<SystemCost> {
-        merge_costs(&self.plan, self.worlds.iter().map(|world| lock(world).profile().systems.clone()))
+        merge_costs(
+            &self.plan.tile,
+            self.worlds.iter().map(|world| lock(world).profile().systems.clone()),
+        )
     }
 
     fn busy_time(&self) -> Duration {

@@ -2,7 +2,7 @@
 
 use super::{ChainRender, TileWorld};
 use crate::film::{Picture, Tally};
-use crate::plan::{Plan, SystemSpec};
+use crate::plan::{Plan, SystemSpec, TilePlan};
 use crate::scene::Scene;
 use crate::systems::SystemCost;
 use crate::systems::tile::Counters;
@@ -45,7 +45,7 @@ pub trait Rendering {
 }
 
 /// Adds the costs of several worlds up, in the order of the plan.
-pub(super) fn merge_costs(plan: &Plan, worlds: impl Iterator<Item = Vec<SystemCost>>) -> Vec<SystemCost> {
+pub(super) fn merge_costs(plan: &TilePlan, worlds: impl Iterator<Item = Vec<SystemCost>>) -> Vec<SystemCost> {
     let mut total: Vec<SystemCost> = Vec::new();
     for cost in worlds.flatten() {
         match total.iter_mut().find(|sum| sum.spec == cost.spec) {
@@ -56,7 +56,7 @@ pub(super) fn merge_costs(plan: &Plan, worlds: impl Iterator<Item = Vec<SystemCo
             None => total.push(cost),
         }
     }
-    let position = |spec: SystemSpec| plan.tile.systems.iter().position(|system| system.spec == spec);
+    let position = |spec: SystemSpec| plan.systems.iter().position(|system| system.spec == spec);
     total.sort_by_key(|cost| position(cost.spec));
     total
 }

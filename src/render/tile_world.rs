@@ -2,8 +2,8 @@
 
 use crate::plan::TilePlan;
 use crate::systems::tile::{Counters, Depths, Queues, TilePlace};
-use crate::table::{Column, Rows};
 use crate::systems::{Profile, Run, build_schedules};
+use crate::table::{Column, Rows};
 use bevy_ecs::change_detection::ContiguousMut;
 use bevy_ecs::component::Component;
 use bevy_ecs::query::With;

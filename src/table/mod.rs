@@ -11,5 +11,7 @@ mod lanes;
 mod whole;
 
 pub use column::{Column, ColumnSpec, Rows};
-pub use lanes::{LANES, LaneValue, Lanes3, LanesD2, LanesF32, LanesF64, LanesU2, LanesU32, LanesU64, LanesUL2, lane_groups};
+pub use lanes::{
+    LANES, LaneValue, Lanes3, LanesD2, LanesF32, LanesF64, LanesU2, LanesU32, LanesU64, LanesUL2, lane_groups,
+};
 pub use whole::{NoTwin, Read, Table, Write};

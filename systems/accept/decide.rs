@@ -3,7 +3,7 @@
 use super::super::chains::{ChainStatistics, KeyColumns, Keys};
 use super::super::tile::{Counters, Queues, TilePlace};
 use crate::chain::{
-    AcceptedList, Acceptance, Booking, ChosenMutation, Class, ForwardDensity, LongestRejections, ProposedClass,
+    Acceptance, AcceptedList, Booking, ChosenMutation, Class, ForwardDensity, LongestRejections, ProposedClass,
     ProposedTarget, Rejections, ReverseDensity, StateClass, Target, decide_with, metropolis,
 };
 use crate::path::{BookedWeight, ChainTable, Decisions};
@@ -51,8 +51,11 @@ pub fn decide(
         (offers.chosen.rows(), offers.targets.rows(), offers.classes.rows());
     let (forward, reverse) = (offers.forward.rows(), offers.reverse.rows());
     let (targets, classes) = (states.targets.rows(), states.classes.rows());
-    let (acceptances, weights, decisions) =
-        (states.acceptances.rows(), states.weights.rows(), states.decisions.rows());
+    let (acceptances, weights, decisions) = (
+        states.acceptances.rows(),
+        states.weights.rows(),
+        states.decisions.rows(),
+    );
     let (rejections, longest, accepted_list) =
         (states.rejections.rows(), states.longest.rows(), states.accepted.rows());
     let mut accepted_chains = 0;
@@ -64,7 +67,9 @@ pub fn decide(
         let rule = metropolis(targets.at(chain), proposed, forward.at(chain), reverse.at(chain));
         let booking = Booking::of(rule.acceptance);
         let accepted = booking.is_certain()
-            || decide_with(booking.accepted, || keys.at(chain).stream(Purpose::ACCEPT, 0).next_f64());
+            || decide_with(booking.accepted, || {
+                keys.at(chain).stream(Purpose::ACCEPT, 0).next_f64()
+            });
         let left = StateClass(classes.at(chain));
         statistics.book(chosen.at(chain) as usize, left, accepted, booking.accepted == 0.0);
         acceptances.put(chain, booking.accepted);

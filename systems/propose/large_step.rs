@@ -49,7 +49,10 @@ impl Mutation for LargeStep {
 
     fn systems(&self) -> Vec<SystemPlan> {
         vec![
-            SystemPlan::new(PROPOSE_LARGE_STEPS, "bootstraps and large steps start anywhere on the film"),
+            SystemPlan::new(
+                PROPOSE_LARGE_STEPS,
+                "bootstraps and large steps start anywhere on the film",
+            ),
             SystemPlan::new(DRAW_LARGE_STEPS, "and go on anywhere"),
         ]
     }

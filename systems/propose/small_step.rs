@@ -71,7 +71,9 @@ impl Mutation for SmallStep {
     }
 
     fn check(&self) -> Result<(), String> {
-        Kernel::new(self.smallest, self.largest).map(|_| ()).map_err(|error| error.to_string())
+        Kernel::new(self.smallest, self.largest)
+            .map(|_| ())
+            .map_err(|error| error.to_string())
     }
 
     fn systems(&self) -> Vec<SystemPlan> {
@@ -137,7 +139,10 @@ pub fn draw_small_steps(
             let from = current.at(vertex);
             let moved = from.perturbed(&kernel, key, depth);
             if !common.is_empty() {
-                common.put(chain, common.at(chain) + from.log_density(&kernel, moved, depth, lights));
+                common.put(
+                    chain,
+                    common.at(chain) + from.log_density(&kernel, moved, depth, lights),
+                );
             }
             moved
         } else {

@@ -4,9 +4,7 @@ use super::super::tile::{GroupFilmRef, TilePlace};
 use crate::chain::Acceptance;
 use crate::color::Rgb;
 use crate::film::Splat;
-use crate::path::{
-    ChainTable, ProposedSplatCount, ProposedSplatTable, SplatColor, SplatCount, SplatPixel, SplatTable,
-};
+use crate::path::{ChainTable, ProposedSplatCount, ProposedSplatTable, SplatColor, SplatCount, SplatPixel, SplatTable};
 use crate::table::{Read, Rows};
 use bevy_ecs::system::Res;
 use std::sync::PoisonError;

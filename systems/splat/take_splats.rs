@@ -2,9 +2,7 @@
 
 use super::super::tile::{Queues, TilePlace};
 use crate::chain::AcceptedList;
-use crate::path::{
-    ChainTable, ProposedSplatCount, ProposedSplatTable, SplatColor, SplatCount, SplatPixel, SplatTable,
-};
+use crate::path::{ChainTable, ProposedSplatCount, ProposedSplatTable, SplatColor, SplatCount, SplatPixel, SplatTable};
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::Res;
 

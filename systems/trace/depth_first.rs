@@ -121,7 +121,9 @@ impl<'a> Tracer<'a> {
                 MaterialKind::Diffuse => scene.materials.sample_diffuse(point.material, wi, draws.scatter(depth)),
                 MaterialKind::Conductor => scene.materials.sample_conductor(point.material, wi),
                 MaterialKind::Dielectric => {
-                    scene.materials.sample_dielectric(point.material, wi, draws.scatter(depth)[0])
+                    scene
+                        .materials
+                        .sample_dielectric(point.material, wi, draws.scatter(depth)[0])
                 }
             });
             let discrete = outcome.as_ref().is_some_and(|(_, outcome)| outcome.discrete);

@@ -25,6 +25,10 @@ pub fn scatter_dielectric(
         &mut queues,
         count,
         |entry| list.at(entry),
-        |material, wi, chain, depth| scene.materials.sample_dielectric(material, wi, draws.scatter(chain, depth)[0]),
+        |material, wi, chain, depth| {
+            scene
+                .materials
+                .sample_dielectric(material, wi, draws.scatter(chain, depth)[0])
+        },
     );
 }

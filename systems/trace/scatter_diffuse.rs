@@ -25,6 +25,10 @@ pub fn scatter_diffuse(
         &mut queues,
         count,
         |entry| list.at(entry),
-        |material, wi, chain, depth| scene.materials.sample_diffuse(material, wi, draws.scatter(chain, depth)),
+        |material, wi, chain, depth| {
+            scene
+                .materials
+                .sample_diffuse(material, wi, draws.scatter(chain, depth))
+        },
     );
 }
