@@ -135,7 +135,7 @@ mod tests {
         assert!((of_sixteen - 0.05).abs() < 0.014, "{of_sixteen}");
         let [of_four, mistaken] = failing_shares(4, 0.0);
         assert!(
-            (0.04..0.08).contains(&of_four) && mistaken > 0.1,
+            (0.04..0.08).contains(&of_four) && mistaken > 0.08,
             "{of_four} {mistaken}"
         );
         for groups in [4, 16] {
