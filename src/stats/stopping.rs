@@ -87,7 +87,7 @@ mod tests {
     }
 
     const GROUPS: usize = 16;
-    const STATISTICS: usize = 6;
+    const STATISTICS: usize = 3;
     /// Errors to reach, as fractions of the mean, which is one: over an octave of steps, as doubling has a different
     /// distance to the checkpoint that suffices for each.
     const TARGETS: [f64; 4] = [0.05, 0.055, 0.06, 0.065];

@@ -83,10 +83,10 @@ fn normal(source: &mut Source) -> f64 {
     source.normal()
 }
 
-/// Student's t with five degrees of freedom: tails as of means over chains that now and then stay somewhere.
+/// Two-sided exponential (kurtosis 6): tails as of means over chains that now and then stay somewhere.
 fn heavy(source: &mut Source) -> f64 {
-    let squares: f64 = (0..5).map(|_| source.normal()).map(|z| z * z).sum();
-    source.normal() * (3.0 / squares).sqrt()
+    let sign = if source.uniform() < 0.5 { -1.0 } else { 1.0 };
+    sign * libm::log(1.0 - source.uniform()) / std::f64::consts::SQRT_2
 }
 
 /// Lognormal with σ = ½ (skewness 1.75): rare groups that are far too bright.
