@@ -91,8 +91,7 @@ mod tests {
 
     /// Over 400 renders each, 95 % of the intervals hold the truth, give or take four standard errors of 0.011 and the
     /// approximation of the degrees of freedom; and the mean of 1/size has no bias that a test at 1 in 1000 sees, which
-    /// is one of 4 to 10 %. The
-    /// number of steps, the planted mistake, lies in almost none where chains are correlated.
+    /// is one of 4 to 10 %. The number of steps, the planted mistake, lies in almost none where chains are correlated.
     #[test]
     fn lazy_chains_are_worth_what_theory_says() {
         let even = vec![0.125; 8];
