@@ -40,6 +40,7 @@
 pub use bevy_ecs;
 
 pub mod camera;
+pub mod chain;
 pub mod cli;
 pub mod color;
 pub mod film;

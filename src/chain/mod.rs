@@ -1,0 +1,10 @@
+//! Chains: the mathematics of Markov chain Monte Carlo, as pure functions over values.
+//!
+//! A chain stands at a state x and is offered a proposal y, drawn with the transition density T(x→y). [`metropolis`] says
+//! with what probability it moves, so that it visits states in proportion to the target function f. Where chains start
+//! is drawn by [`resample()`] from a bootstrap, whose mean weight is the [`Normalization`]. [`Kernel`] perturbs the
+//! coordinates of primary sample space.
+
+mod acceptance;
+
+pub use acceptance::{Decision, Reason, decide, metropolis};
