@@ -6,5 +6,9 @@
 //! coordinates of primary sample space.
 
 mod acceptance;
+mod normalization;
+mod resample;
 
 pub use acceptance::{Decision, Reason, decide, metropolis};
+pub use normalization::Normalization;
+pub use resample::{distinct, resample};

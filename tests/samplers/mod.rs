@@ -7,6 +7,7 @@ mod discrete;
 mod emitters;
 mod light_choice;
 mod lights;
+mod resampling;
 mod smooth;
 mod streams;
 mod warps;
