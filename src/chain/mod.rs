@@ -7,8 +7,10 @@
 
 mod acceptance;
 mod normalization;
+mod primary;
 mod resample;
 
 pub use acceptance::{Decision, Reason, decide, metropolis};
 pub use normalization::Normalization;
+pub use primary::{Kernel, KernelError, LEAST_STEP, to_f32, to_f64};
 pub use resample::{distinct, resample};

@@ -7,6 +7,7 @@ mod discrete;
 mod emitters;
 mod light_choice;
 mod lights;
+mod primary;
 mod resampling;
 mod smooth;
 mod streams;

@@ -1,0 +1,337 @@
+//! Coordinates of primary sample space in fixed point, and the small step that perturbs them.
+//!
+//! A coordinate is a whole number c that stands for u = c/2³² (or c/2⁶⁴, the wide kind) in [0, 1), and the ends of that
+//! interval are joined. Adding a step is then an addition of integers that wraps around by itself, with two properties
+//! that no arithmetic in floating point has: a step is taken back exactly by its opposite, which is as likely, so the
+//! kernel is symmetric to the last bit; and for any step, c ↦ c + step is a bijection, so uniform coordinates stay uniform.
+
+use crate::math;
+use std::f64::consts::LN_2;
+
+/// The least step that a [`Kernel`] takes: 2⁻²⁴, the resolution of [`to_f32`].
+pub const LEAST_STEP: f32 = 1.0 / 16_777_216.0;
+
+/// Half way around, beyond which a step would be a shorter one in the other direction.
+const LONGEST_STEP: f32 = 0.5;
+
+const UNITS_NARROW: f64 = 4_294_967_296.0;
+const UNITS_WIDE: f64 = UNITS_NARROW * UNITS_NARROW;
+/// Bits of a random number that choose a step's size; the lowest one chooses its sign.
+const SIZE_BITS: u32 = 31;
+
+/// The coordinate in [0, 1): a multiple of 2⁻²⁴, never 1.
+#[inline]
+#[must_use]
+pub const fn to_f32(c: u32) -> f32 {
+    (c >> 8) as f32 * (1.0 / 16_777_216.0)
+}
+
+/// The wide coordinate in [0, 1): a multiple of 2⁻⁵³, never 1.
+#[inline]
+#[must_use]
+pub const fn to_f64(c: u64) -> f64 {
+    (c >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
+}
+
+/// The small step of Kelemen, Szirmay-Kalos, Antal and Csonka (2002, section 4): sizes from s₁ to s₂ whose logarithm is
+/// uniform, |d| = s₂ exp(−ln(s₂/s₁) v) for a uniform v, in either direction. Its density per unit of the coordinate is
+/// 1/(2 |d| ln(s₂/s₁)) where s₁ <= |d| <= s₂, and zero elsewhere. It is symmetric.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kernel {
+    /// s₁ and s₂, for [`Kernel::support_length`].
+    sizes: [f32; 2],
+    /// −log₂(s₂/s₁), per unit of the size bits.
+    log2_per_bit: f32,
+    /// −ln(2 ln(s₂/s₁)): the logarithm of the density at a distance of 1, were it allowed.
+    log_density_at_one: f64,
+    /// s₁ and s₂ in units of a narrow and of a wide coordinate.
+    narrow: [u32; 2],
+    wide: [u64; 2],
+}
+
+/// A [`Kernel`] that cannot be.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
+#[error("perturbations from {smallest} to {largest} of a random number's range")]
+#[diagnostic(help("give sizes of which the first is smaller, from 2^-24 to 0.5; from 1/1024 to 1/64 is common"))]
+pub struct KernelError {
+    /// The smallest size asked for.
+    pub smallest: f32,
+    /// The largest size asked for.
+    pub largest: f32,
+}
+
+impl Kernel {
+    /// The kernel of steps from `smallest` to `largest`.
+    ///
+    /// # Errors
+    ///
+    /// If not [`LEAST_STEP`] <= `smallest` < `largest` <= 0.5.
+    pub fn new(smallest: f32, largest: f32) -> Result<Self, KernelError> {
+        if !(smallest >= LEAST_STEP && smallest < largest && largest <= LONGEST_STEP) {
+            return Err(KernelError { smallest, largest });
+        }
+        let sizes = [smallest, largest];
+        let octaves = libm::log2(f64::from(largest) / f64::from(smallest));
+        Ok(Self {
+            sizes,
+            log2_per_bit: (-octaves / f64::from(1_u32 << SIZE_BITS)) as f32,
+            log_density_at_one: -libm::log(2.0 * LN_2 * octaves),
+            narrow: sizes.map(narrow),
+            wide: sizes.map(wide),
+        })
+    }
+
+    /// The coordinate `c` perturbed, by 32 random bits: the lowest is the step's sign, the others its size.
+    #[inline]
+    #[must_use]
+    pub fn perturb(&self, c: u32, random: u32) -> u32 {
+        step_narrow(c, narrow(self.size(random)), random)
+    }
+
+    /// As [`perturb`](Self::perturb), of a wide coordinate. A size has 24 significant bits, as the narrow one.
+    #[inline]
+    #[must_use]
+    pub fn perturb_wide(&self, c: u64, random: u32) -> u64 {
+        step_wide(c, wide(self.size(random)), random)
+    }
+
+    /// The logarithm of the density, per unit of the coordinate, with which [`perturb`](Self::perturb) leads from one
+    /// coordinate to the other: the same both ways, −∞ where no step leads.
+    #[inline]
+    #[must_use]
+    pub fn log_density(&self, from: u32, to: u32) -> f64 {
+        let there = to.wrapping_sub(from);
+        let distance = there.min(there.wrapping_neg());
+        let possible = (self.narrow[0]..=self.narrow[1]).contains(&distance);
+        self.log_density_at(possible, f64::from(distance) / UNITS_NARROW)
+    }
+
+    /// As [`log_density`](Self::log_density), of wide coordinates.
+    #[inline]
+    #[must_use]
+    pub fn log_density_wide(&self, from: u64, to: u64) -> f64 {
+        let there = to.wrapping_sub(from);
+        let distance = there.min(there.wrapping_neg());
+        let possible = (self.wide[0]..=self.wide[1]).contains(&distance);
+        self.log_density_at(possible, distance as f64 / UNITS_WIDE)
+    }
+
+    /// A coordinate uniform over those that a step from `c` can reach, both ways: what densities are tested against.
+    #[inline]
+    #[must_use]
+    pub fn uniform_in_support(&self, c: u32, random: u32) -> u32 {
+        let [least, most] = self.narrow.map(u64::from);
+        let size = least + ((u64::from(random >> 1) * (most - least + 1)) >> SIZE_BITS);
+        step_narrow(c, size as u32, random)
+    }
+
+    /// As [`uniform_in_support`](Self::uniform_in_support), of a wide coordinate: one of 2³² evenly spaced ones.
+    #[inline]
+    #[must_use]
+    pub fn uniform_in_support_wide(&self, c: u64, random: u32) -> u64 {
+        let [least, most] = self.wide.map(u128::from);
+        let size = least + ((u128::from(random >> 1) * (most - least + 1)) >> SIZE_BITS);
+        step_wide(c, size as u64, random)
+    }
+
+    /// The length of the coordinates that a step can reach: 2 (s₂ − s₁).
+    #[must_use]
+    pub fn support_length(&self) -> f64 {
+        let [smallest, largest] = self.sizes.map(f64::from);
+        2.0 * (largest - smallest)
+    }
+
+    /// The size of a step, from s₁ to s₂, give or take some 10⁻⁶ of itself.
+    #[inline]
+    fn size(&self, random: u32) -> f32 {
+        let [smallest, largest] = self.sizes;
+        // 31 bits fit a signed integer, which processors convert faster.
+        let v = (random >> 1) as i32 as f32;
+        // A power that is not positive is at most 1, but rounding may lead below s₁.
+        let size = largest * math::exp2(self.log2_per_bit * v);
+        if size < smallest { smallest } else { size }
+    }
+
+    #[inline]
+    fn log_density_at(&self, possible: bool, distance: f64) -> f64 {
+        if possible {
+            self.log_density_at_one - libm::log(distance)
+        } else {
+            f64::NEG_INFINITY
+        }
+    }
+}
+
+/// A size below 1 and of at least [`LEAST_STEP`], in units of 2⁻⁶⁴: exact. An `f64` in [1, 2) has 52 bits behind the point,
+/// which is more than such a size needs, and the shift leaves only them. No conversion that saturates is as fast.
+#[inline]
+fn wide(size: f32) -> u64 {
+    (1.0 + f64::from(size)).to_bits() << 12
+}
+
+/// As [`wide`], in units of 2⁻³², to the nearest.
+#[inline]
+fn narrow(size: f32) -> u32 {
+    ((wide(size) + (1 << 31)) >> 32) as u32
+}
+
+/// `c` plus `size`, or minus it where the lowest bit of `random` is set (then `mask` negates: !x + 1).
+#[inline]
+const fn step_narrow(c: u32, size: u32, random: u32) -> u32 {
+    let mask = (random & 1).wrapping_neg();
+    c.wrapping_add((size ^ mask).wrapping_sub(mask))
+}
+
+/// As [`step_narrow`], of a wide coordinate.
+#[inline]
+const fn step_wide(c: u64, size: u64, random: u32) -> u64 {
+    let mask = ((random & 1) as u64).wrapping_neg();
+    c.wrapping_add((size ^ mask).wrapping_sub(mask))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const STARTS: [u32; 4] = [0, 1, 1 << 31, u32::MAX];
+    const WIDE_STARTS: [u64; 4] = [0, 1, 1 << 63, u64::MAX];
+
+    #[test]
+    fn sizes_that_make_no_kernel_are_refused() {
+        let nan = f32::NAN;
+        for (smallest, largest) in [
+            (0.0, 0.1),
+            (-0.1, 0.1),
+            (0.1, 0.1),
+            (0.2, 0.1),
+            (0.1, 0.500_001),
+            (LEAST_STEP / 2.0, 0.1),
+            (nan, 0.1),
+            (0.1, nan),
+            (0.1, f32::INFINITY),
+        ] {
+            assert!(Kernel::new(smallest, largest).is_err(), "{smallest} {largest}");
+        }
+        let said = Kernel::new(0.2, 0.1).expect_err("the wrong way round").to_string();
+        assert_eq!(said, "perturbations from 0.2 to 0.1 of a random number's range");
+    }
+
+    #[test]
+    fn coordinates_stay_below_one() {
+        assert_eq!((to_f32(0), to_f64(0)), (0.0, 0.0));
+        assert_eq!((to_f32(1 << 31), to_f64(1 << 63)), (0.5, 0.5));
+        assert_eq!(to_f32(u32::MAX), 1.0 - f32::EPSILON / 2.0);
+        assert_eq!(to_f64(u64::MAX), 1.0 - f64::EPSILON / 2.0);
+    }
+
+    #[test]
+    fn no_random_number_leads_past_the_ends() -> Result<(), KernelError> {
+        for (smallest, largest) in [
+            (LEAST_STEP, 0.5),
+            (1.0 / 1024.0, 1.0 / 64.0),
+            (0.001, 0.3),
+            (0.499, 0.5),
+        ] {
+            let kernel = Kernel::new(smallest, largest)?;
+            let units = |s: f32| (f64::from(s) * UNITS_NARROW).round() as u32;
+            assert_eq!(kernel.perturb(0, 0), units(largest));
+            let least = kernel.perturb(0, u32::MAX).wrapping_neg();
+            assert!(f64::from(least - units(smallest)) <= 2e-6 * f64::from(least), "{least}");
+            assert_eq!(
+                kernel.perturb_wide(0, 0),
+                u64::from(largest.to_bits() & 0x7f_ffff | 0x80_0000) << shift(largest)
+            );
+            for random in [0, 1, 2, 3, u32::MAX, u32::MAX - 1, 1 << 31] {
+                assert!(kernel.log_density(0, kernel.perturb(0, random)).is_finite());
+                assert!(kernel.log_density(0, kernel.uniform_in_support(0, random)).is_finite());
+                assert!(kernel.log_density_wide(0, kernel.perturb_wide(0, random)).is_finite());
+                assert!(
+                    kernel
+                        .log_density_wide(0, kernel.uniform_in_support_wide(0, random))
+                        .is_finite()
+                );
+            }
+        }
+        Ok(())
+    }
+
+    /// How far a mantissa of 24 bits is shifted to make units of 2⁻⁶⁴.
+    fn shift(x: f32) -> u32 {
+        (x.to_bits() >> 23) - 127 + 64 - 23
+    }
+
+    #[test]
+    fn where_no_step_leads_the_density_is_zero() -> Result<(), KernelError> {
+        let kernel = Kernel::new(1.0 / 1024.0, 1.0 / 64.0)?;
+        let (least, most) = (1 << 22, 1 << 26);
+        for c in STARTS {
+            for (distance, possible) in [
+                (0, false),
+                (least - 1, false),
+                (least, true),
+                (most, true),
+                (most + 1, false),
+                (1 << 31, false),
+            ] {
+                for to in [c.wrapping_add(distance), c.wrapping_sub(distance)] {
+                    assert_eq!(kernel.log_density(c, to).is_finite(), possible, "{c} {distance}");
+                }
+            }
+        }
+        let at_most = libm::exp(kernel.log_density(0, most));
+        assert!((at_most - 64.0 / (2.0 * 4.0 * LN_2)).abs() < 1e-12, "{at_most}");
+        Ok(())
+    }
+
+    /// Kernels of all sizes.
+    fn kernel() -> impl Strategy<Value = Kernel> {
+        let sizes = (LEAST_STEP.to_bits()..LONGEST_STEP.to_bits()).prop_map(f32::from_bits);
+        (sizes.clone(), sizes).prop_filter_map("sizes differ", |(a, b)| Kernel::new(a.min(b), a.max(b)).ok())
+    }
+
+    proptest! {
+        #[test]
+        fn a_step_wraps_around_and_can_be_taken_back(
+            kernel in kernel(),
+            c in prop_oneof![prop::sample::select(&STARTS[..]), any::<u32>()],
+            random in any::<u32>(),
+        ) {
+            for y in [kernel.perturb(c, random), kernel.uniform_in_support(c, random)] {
+                prop_assert!((0.0..1.0).contains(&to_f32(y)));
+                let density = kernel.log_density(c, y);
+                prop_assert!(density.is_finite());
+                prop_assert_eq!(density.to_bits(), kernel.log_density(y, c).to_bits());
+            }
+            // The other sign leads back, and what is added is the same wherever the chain stands.
+            let step = kernel.perturb(0, random);
+            prop_assert_eq!(kernel.perturb(c, random), c.wrapping_add(step));
+            prop_assert_eq!(kernel.perturb(kernel.perturb(c, random), random ^ 1), c);
+        }
+
+        #[test]
+        fn a_wide_step_wraps_around_and_can_be_taken_back(
+            kernel in kernel(),
+            c in prop_oneof![prop::sample::select(&WIDE_STARTS[..]), any::<u64>()],
+            random in any::<u32>(),
+        ) {
+            for y in [kernel.perturb_wide(c, random), kernel.uniform_in_support_wide(c, random)] {
+                prop_assert!((0.0..1.0).contains(&to_f64(y)));
+                let density = kernel.log_density_wide(c, y);
+                prop_assert!(density.is_finite());
+                prop_assert_eq!(density.to_bits(), kernel.log_density_wide(y, c).to_bits());
+            }
+            let step = kernel.perturb_wide(0, random);
+            prop_assert_eq!(kernel.perturb_wide(c, random), c.wrapping_add(step));
+            prop_assert_eq!(kernel.perturb_wide(kernel.perturb_wide(c, random), random ^ 1), c);
+        }
+
+        /// Both kinds take the same step, to the rounding of the narrow one.
+        #[test]
+        fn wide_and_narrow_steps_agree(kernel in kernel(), random in any::<u32>()) {
+            let (narrow, wide) = (kernel.perturb(0, random), kernel.perturb_wide(0, random));
+            let gap = (u64::from(narrow) << 32).wrapping_sub(wide) as i64;
+            prop_assert!(gap.unsigned_abs() <= 1 << 32, "{narrow} {wide}");
+        }
+    }
+}
