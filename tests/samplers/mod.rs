@@ -10,5 +10,6 @@ mod lights;
 mod primary;
 mod resampling;
 mod smooth;
+mod stream_lags;
 mod streams;
 mod warps;
