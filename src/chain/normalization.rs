@@ -17,7 +17,7 @@ pub struct Normalization {
 
 impl Normalization {
     /// The mean of `weights` and its standard error. Zeros count: they are paths that found no light. Weights that are
-    /// negative or not finite count as zeros, as when [resampling](super::resample).
+    /// negative or not finite count as zeros, as when [resampling](super::resample()).
     #[must_use]
     pub fn of(weights: &[f64]) -> Self {
         let largest = weights.iter().map(|&w| counted(w)).fold(0.0, f64::max);
@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn intervals_cover_as_often_as_they_say() {
         let covers = |repetition: &u32| {
-            let mut stream = StreamKey::new(5, *repetition, 0).stream(Purpose::Light, 0);
+            let mut stream = StreamKey::new(5, *repetition, 0).stream(Purpose::LIGHT, 0);
             let weight = |u: f64| if u < 0.25 { 4.0 * u } else { 0.0 };
             let weights: Vec<f64> = (0..400).map(|_| weight(stream.next_f64())).collect();
             let [low, high] = Normalization::of(&weights).interval(0.95);

@@ -76,8 +76,8 @@ impl Kernel {
             sizes,
             log2_per_bit: (-octaves / f64::from(1_u32 << SIZE_BITS)) as f32,
             log_density_at_one: -libm::log(2.0 * LN_2 * octaves),
-            narrow: sizes.map(|s| (f64::from(s) * UNITS_NARROW).round() as u32),
-            wide: sizes.map(|s| (f64::from(s) * UNITS_WIDE) as u64),
+            narrow: sizes.map(narrow),
+            wide: sizes.map(wide),
         })
     }
 
@@ -85,18 +85,14 @@ impl Kernel {
     #[inline]
     #[must_use]
     pub fn perturb(&self, c: u32, random: u32) -> u32 {
-        // Half a unit more, so that the conversion rounds.
-        let size = (self.size(random) * UNITS_NARROW as f32 + 0.5) as u32;
-        // Rounding in the exponential may lead past the ends by some 10⁻⁶ of the step.
-        step_narrow(c, size.max(self.narrow[0]).min(self.narrow[1]), random)
+        step_narrow(c, narrow(self.size(random)), random)
     }
 
     /// As [`perturb`](Self::perturb), of a wide coordinate. A size has 24 significant bits, as the narrow one.
     #[inline]
     #[must_use]
     pub fn perturb_wide(&self, c: u64, random: u32) -> u64 {
-        let size = (self.size(random) * UNITS_WIDE as f32) as u64;
-        step_wide(c, size.max(self.wide[0]).min(self.wide[1]), random)
+        step_wide(c, wide(self.size(random)), random)
     }
 
     /// The logarithm of the density, per unit of the coordinate, with which [`perturb`](Self::perturb) leads from one
@@ -145,12 +141,15 @@ impl Kernel {
         2.0 * (largest - smallest)
     }
 
-    /// The size of a step, give or take some 10⁻⁶ of itself.
+    /// The size of a step, from s₁ to s₂, give or take some 10⁻⁶ of itself.
     #[inline]
     fn size(&self, random: u32) -> f32 {
+        let [smallest, largest] = self.sizes;
         // 31 bits fit a signed integer, which processors convert faster.
         let v = (random >> 1) as i32 as f32;
-        self.sizes[1] * math::exp2(self.log2_per_bit * v)
+        // A power that is not positive is at most 1, but rounding may lead below s₁.
+        let size = largest * math::exp2(self.log2_per_bit * v);
+        if size < smallest { smallest } else { size }
     }
 
     #[inline]
@@ -161,6 +160,19 @@ impl Kernel {
             f64::NEG_INFINITY
         }
     }
+}
+
+/// A size below 1 and of at least [`LEAST_STEP`], in units of 2⁻⁶⁴: exact. An `f64` in [1, 2) has 52 bits behind the point,
+/// which is more than such a size needs, and the shift leaves only them. No conversion that saturates is as fast.
+#[inline]
+fn wide(size: f32) -> u64 {
+    (1.0 + f64::from(size)).to_bits() << 12
+}
+
+/// As [`wide`], in units of 2⁻³², to the nearest.
+#[inline]
+fn narrow(size: f32) -> u32 {
+    ((wide(size) + (1 << 31)) >> 32) as u32
 }
 
 /// `c` plus `size`, or minus it where the lowest bit of `random` is set (then `mask` negates: !x + 1).

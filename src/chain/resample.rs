@@ -67,7 +67,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn uniform(seed: u64) -> impl FnMut() -> f64 {
-        let mut stream = StreamKey::new(seed, 0, 0).stream(Purpose::Light, 0);
+        let mut stream = StreamKey::new(seed, 0, 0).stream(Purpose::LIGHT, 0);
         move || stream.next_f64()
     }
 

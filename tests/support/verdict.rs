@@ -6,9 +6,9 @@ use chainlight::stats::normal::sidak;
 use chainlight::stats::z_test::Estimate;
 
 /// The probability that any test of a family fails when nothing is wrong.
-const ALPHA: f64 = 0.01;
+pub const ALPHA: f64 = 0.01;
 /// The probability with which the smallest visible deviation is found.
-const POWER: f64 = 0.95;
+pub const POWER: f64 = 0.95;
 
 /// Tests that share a chance of a false alarm: one in a hundred for all together (Sidak).
 #[derive(Clone, Copy, Debug)]
