@@ -9,7 +9,7 @@ mod support;
 
 use bevy_ecs::schedule::{Schedules, SingleThreadedExecutor};
 use chainlight::plan::{Place, Stage, Technique};
-use chainlight::render::Render;
+use chainlight::render::{Render, Rendering};
 use chainlight::scene::Scene;
 use chainlight::systems::list::TRACE_LOOP;
 use criterion::{BenchmarkId, Criterion, Throughput};
@@ -30,7 +30,7 @@ fn ns_per_path(render: &mut Render) -> f64 {
 }
 
 fn table(name: &str, scene: &Arc<Scene>) {
-    let mut renders = Technique::ALL.map(|technique| start(scene, technique, None));
+    let mut renders = [Technique::Pt, Technique::PtReference].map(|technique| start(scene, technique, None));
     let mut rounds = [Vec::new(), Vec::new()];
     for _ in 0..ROUNDS {
         for (render, figures) in renders.iter_mut().zip(&mut rounds) {
@@ -82,7 +82,7 @@ fn table(name: &str, scene: &Arc<Scene>) {
 fn price_of_the_clock(scene: &Arc<Scene>) {
     let mut timed = start(scene, Technique::Pt, None);
     let mut bare = start(scene, Technique::Pt, None);
-    bare.for_each_world(|_, tile| {
+    bare.for_each_world(&mut |_, tile| {
         for (_, schedule) in tile.world_mut().resource_mut::<Schedules>().iter_mut() {
             schedule.set_executor(SingleThreadedExecutor::new());
         }
@@ -109,7 +109,7 @@ fn main() {
             .warm_up_time(Duration::from_secs(1))
             .measurement_time(Duration::from_secs(3));
         group.throughput(Throughput::Elements(u64::from(SIZE * SIZE)));
-        for technique in Technique::ALL {
+        for technique in [Technique::Pt, Technique::PtReference] {
             let mut render = start(scene, technique, None);
             group.bench_function(BenchmarkId::from_parameter(technique), |bencher| {
                 bencher.iter(|| black_box(&mut render).burst(1, &|_| {}));

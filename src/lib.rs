@@ -11,7 +11,7 @@
 //!
 //! ```
 //! use chainlight::plan::{Plan, Technique};
-//! use chainlight::render::Render;
+//! use chainlight::render::{Render, Rendering};
 //! use chainlight::scene::{Format, Scene, SceneOverrides, flatten, parse_scene};
 //! use std::{path::Path, sync::Arc};
 //!

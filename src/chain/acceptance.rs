@@ -111,16 +111,6 @@ pub fn metropolis(current: f32, proposed: f32, log_forward: f64, log_reverse: f6
     }
 }
 
-/// Whether a move of the given acceptance is made, for a uniform `u` in [0, 1).
-///
-/// An acceptance of zero is never taken and one of 1 always. In between, `u` being a multiple of 2⁻²⁴, the probability is
-/// the acceptance rounded up to such a multiple: by less than 6e-8, and never to zero what is possible.
-#[inline]
-#[must_use]
-pub fn decide(acceptance: f32, u: f32) -> bool {
-    u < acceptance
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -188,16 +178,6 @@ mod tests {
                 }
             }
         }
-    }
-
-    #[test]
-    fn no_number_moves_where_it_must_not_or_stays_where_it_must_go() {
-        let below_one = (u32::MAX >> 8) as f32 / 16_777_216.0;
-        for u in [0.0, 0.5, below_one] {
-            assert!(!decide(0.0, u));
-            assert!(decide(1.0, u));
-        }
-        assert!(decide(f32::from_bits(1), 0.0) && !decide(0.5, 0.5));
     }
 
     #[test]

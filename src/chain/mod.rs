@@ -6,11 +6,17 @@
 //! coordinates of primary sample space.
 
 mod acceptance;
+mod booking;
+mod columns;
 mod normalization;
 mod primary;
 mod resample;
+mod state;
 
-pub use acceptance::{Decision, Reason, decide, metropolis};
+pub use acceptance::{Decision, Reason, metropolis};
+pub use booking::{Booking, decide_with};
+pub use columns::*;
 pub use normalization::Normalization;
 pub use primary::{Kernel, KernelError, LEAST_STEP, to_f32, to_f64};
 pub use resample::{distinct, resample};
+pub use state::{Signature, StateClass};

@@ -13,7 +13,7 @@ impl Source {
     /// The source with this seed.
     pub(super) fn new(seed: u64) -> Self {
         Self {
-            stream: StreamKey::new(seed, 0, 0).stream(Purpose::Scatter, 0),
+            stream: StreamKey::new(seed, 0, 0).stream(Purpose::SCATTER, 0),
             spare: None,
         }
     }

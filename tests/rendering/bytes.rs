@@ -3,7 +3,7 @@
 use super::{shipped, start};
 use chainlight::film::{Picture, PictureMetadata, encode_exr};
 use chainlight::plan::Technique;
-use chainlight::render::{Budget, Stop, drive};
+use chainlight::render::{Budget, Rendering, Stop, drive};
 use chainlight::scene::Scene;
 use sha2::{Digest, Sha256};
 use std::fmt::Write;

@@ -7,7 +7,7 @@ mod world;
 
 use chainlight::film::Picture;
 use chainlight::plan::{Plan, Technique};
-use chainlight::render::Render;
+use chainlight::render::{Render, Rendering};
 use chainlight::scene::{Format, Scene, SceneOverrides, SceneSource, flatten, parse_scene, read_scene};
 use std::path::Path;
 use std::sync::Arc;

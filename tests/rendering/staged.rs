@@ -4,6 +4,7 @@
 use super::{picture, shipped};
 use chainlight::film::Picture;
 use chainlight::plan::Technique;
+use chainlight::render::Rendering;
 
 fn bits(picture: &Picture) -> Vec<[u32; 3]> {
     picture.rgb.iter().map(|rgb| rgb.to_array().map(f32::to_bits)).collect()

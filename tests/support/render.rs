@@ -2,7 +2,7 @@
 
 use chainlight::film::Picture;
 use chainlight::plan::{Plan, Technique};
-use chainlight::render::Render;
+use chainlight::render::{Render, Rendering};
 use chainlight::scene::{Format, Scene, SceneOverrides, flatten, parse_scene};
 use chainlight::stats::z_test::Estimate;
 use std::path::Path;
