@@ -1,13 +1,15 @@
 //! Renders with Markov chains of light paths.
 
 use super::chain_run::ChainRun;
-use super::rendering::Rendering;
+use super::rendering::{Rendering, error_blocks};
 use super::tile_world::{TileWorld, lock};
 use super::{RenderError, Start};
 use crate::chain::StateClass;
-use crate::film::{BlockGrid, FilmError, GroupFilm, Picture, Tally, develop_groups};
+use crate::film::{BlockGrid, FilmError, GroupFilm, Picture, Tally, block_means, develop_groups};
 use crate::plan::Plan;
 use crate::scene::Scene;
+use crate::stats::error::PictureError;
+use crate::stats::group_means::GroupMeans;
 use crate::systems::SystemCost;
 use crate::systems::tile::{Counters, FilmBlocks, GroupFilmRef, SceneRef};
 use std::sync::atomic::AtomicBool;
@@ -103,6 +105,20 @@ impl ChainRender {
         }
     }
 
+    /// What every group estimates for the mean radiance of every block and channel (number block · 3 + channel).
+    #[must_use]
+    pub fn group_block_means(&self, grid: &BlockGrid) -> Option<GroupMeans> {
+        let row = |(group, film): (usize, &Arc<Mutex<GroupFilm>>)| block_means(&lock(film), grid, self.scale(group));
+        let rows = self
+            .films
+            .iter()
+            .enumerate()
+            .map(row)
+            .collect::<Result<Vec<_>, _>>()
+            .ok()?;
+        GroupMeans::from_rows(&rows).ok()
+    }
+
     /// Mutations per pixel after `steps` steps.
     #[must_use]
     pub fn mutations_per_pixel(&self, steps: u64) -> f64 {
@@ -184,6 +200,11 @@ impl Rendering for ChainRender {
         let weight = self.mutations_per_pixel(self.steps()) as f32;
         // All films are of the scene's size, and there is a finite scale for each.
         develop_groups(&films, &scales, weight).unwrap_or_default()
+    }
+
+    fn error(&self) -> Option<PictureError> {
+        let means = self.group_block_means(&error_blocks(&self.scene))?;
+        PictureError::of(&means)?.relative_to(means.grand_mean())
     }
 
     fn tally(&self) -> Tally {

@@ -1,25 +1,30 @@
 //! Rendering: tiles built from a plan, dealt to threads, burst by burst.
 
 mod built;
+mod bytes;
 mod chain_run;
 mod chains;
 mod deal;
 mod driver;
 mod group;
 mod rendering;
+mod saved;
+mod saved_tile;
 mod tile_world;
 
 pub use built::{Built, BuiltColumn, BuiltTable, short};
 pub use chain_run::ChainRun;
 pub use chains::ChainRender;
-pub use driver::{Budget, Outcome, Progress, Stop, drive};
+pub use driver::{Budget, Goal, Outcome, Progress, Stop, drive};
 pub use group::Start;
-pub use rendering::Rendering;
+pub use rendering::{Rendering, error_blocks};
+pub use saved::SavedRenderError;
 pub use tile_world::TileWorld;
 
-use crate::film::{Film, FilmError, Picture, Tally};
+use crate::film::{Film, FilmError, Picture, Tally, block_means_of, block_variances};
 use crate::plan::Plan;
 use crate::scene::Scene;
+use crate::stats::error::PictureError;
 use crate::systems::SystemCost;
 use crate::systems::tile::{Counters, FilmRef, SceneRef};
 use deal::deal;
@@ -167,6 +172,17 @@ impl Rendering for Render {
 
     fn picture(&self) -> Picture {
         self.film.develop()
+    }
+
+    fn error(&self) -> Option<PictureError> {
+        let (picture, grid) = (self.picture(), error_blocks(&self.scene));
+        let variances = block_variances(&picture, &grid).ok()?;
+        let means = block_means_of(picture.view(), &grid).ok()?;
+        if !variances.iter().all(|variance| variance.is_finite()) {
+            return None;
+        }
+        let mean = means.iter().sum::<f64>() / means.len() as f64;
+        PictureError::of_independent(&variances).relative_to(mean)
     }
 
     fn tally(&self) -> Tally {
