@@ -1,13 +1,13 @@
 //! What the commands that take a scene have in common: its arguments, and loading it.
 
 use super::output::note;
-use crate::plan::{Plan, Technique, UnknownTechnique};
+use crate::plan::{Plan, PlanOptions, Registry, Technique, UnknownTechnique};
 use crate::scene::{
     FilterDescription, Scene, SceneOverrides, Step, description::MAX_DEPTH_LIMIT, description::MAX_FILM_PIXELS,
 };
 use crate::scene::{description::MAX_FILM_SIDE, flatten, read_scene};
 use clap::Args;
-use miette::Result;
+use miette::{Result, miette};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -29,6 +29,32 @@ pub struct SceneArgs {
     /// Chains per tile instead of as many as fit the cache; the picture does not depend on it
     #[arg(long, value_name = "CHAINS", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub tile: Option<u32>,
+    #[command(flatten)]
+    pub mutations: MutationArgs,
+}
+
+/// Settings of mutations.
+#[derive(Args, Clone, Debug, Default)]
+pub struct MutationArgs {
+    /// Settings of a mutation, such as small_step:weight=0.5,largest=0.1; a weight of 0 leaves it out
+    #[arg(long, value_name = "NAME:KEY=VALUE,...")]
+    pub mutation: Vec<String>,
+}
+
+impl MutationArgs {
+    /// The mutations of `registry` with these settings.
+    ///
+    /// # Errors
+    /// A name, a key or a value that does not fit.
+    pub fn apply(&self, registry: &Registry) -> Result<Registry> {
+        let mut registry = registry.clone();
+        for text in &self.mutation {
+            registry
+                .set(text)
+                .map_err(|error| miette!("--mutation {text}: {error}"))?;
+        }
+        Ok(registry)
+    }
 }
 
 /// A scene, ready to render, and how long that took.
@@ -46,12 +72,13 @@ pub struct Loaded {
 }
 
 impl SceneArgs {
-    /// Reads, compiles and plans. Warnings are printed to standard error.
+    /// Reads, compiles and plans, with the mutations of `registry`. Warnings are printed to standard error.
     ///
     /// # Errors
-    /// A file that is no valid scene, or a technique that there is not.
-    pub fn load(&self) -> Result<Loaded> {
+    /// A file that is no valid scene, a technique that there is not, or mutations that chains cannot run with.
+    pub fn load(&self, registry: &Registry) -> Result<Loaded> {
         let start = Instant::now();
+        let mutations = self.mutations.apply(registry)?;
         let source = read_scene(&self.scene)?;
         let flattened = flatten(&source)?;
         let named = source.description.settings.technique.as_deref();
@@ -76,7 +103,12 @@ impl SceneArgs {
         for warning in &warnings {
             note(&format!("warning: {warning}"));
         }
-        let plan = Plan::new(&scene, technique, self.tile);
+        let options = PlanOptions {
+            tile_size: self.tile,
+            mutations,
+            ..PlanOptions::default()
+        };
+        let plan = Plan::with(&scene, technique, &options)?;
         Ok(Loaded {
             scene,
             plan,

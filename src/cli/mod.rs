@@ -12,6 +12,7 @@ pub mod render;
 mod report;
 mod target;
 
+use crate::plan::Registry;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -35,15 +36,24 @@ enum Command {
     Compare(compare::CompareArgs),
 }
 
-/// Runs the command that the arguments name.
+/// Runs the command that the arguments name, with the mutations of this crate.
 ///
 /// # Errors
 /// Whatever the command cannot do, with what to do about it.
 pub fn run(cli: &Cli) -> miette::Result<ExitCode> {
+    run_with(cli, &crate::systems::propose::mutations())
+}
+
+/// Runs the command that the arguments name, with the mutations of `registry`: how a program that has mutations of its own
+/// gets all commands with them.
+///
+/// # Errors
+/// Whatever the command cannot do, with what to do about it.
+pub fn run_with(cli: &Cli, registry: &Registry) -> miette::Result<ExitCode> {
     match &cli.command {
-        Command::Render(args) => render::run(args),
-        Command::Plan(args) => plan::run(args).map(|()| ExitCode::SUCCESS),
-        Command::Profile(args) => profile::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Render(args) => render::run(args, registry),
+        Command::Plan(args) => plan::run(args, registry).map(|()| ExitCode::SUCCESS),
+        Command::Profile(args) => profile::run(args, registry).map(|()| ExitCode::SUCCESS),
         Command::Compare(args) => compare::run(args).map(|()| ExitCode::SUCCESS),
     }
 }

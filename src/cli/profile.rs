@@ -6,7 +6,7 @@ use super::output::{count, print};
 use super::target::check_writable;
 use super::{interrupt, memory};
 use crate::film::write_file;
-use crate::plan::{Stage, SystemSpec, Traces};
+use crate::plan::{Registry, Stage, SystemSpec, Traces};
 use crate::render::{Budget, Rendering, drive, start};
 use crate::systems::Span;
 use crate::systems::list::TRACE_LOOP;
@@ -80,11 +80,11 @@ struct Cost {
 ///
 /// # Errors
 /// A scene that cannot be loaded, or a trace file that cannot be written.
-pub fn run(args: &ProfileArgs) -> Result<()> {
+pub fn run(args: &ProfileArgs, registry: &Registry) -> Result<()> {
     if let Some(path) = &args.trace {
         check_writable(path)?;
     }
-    let loaded = args.scene.load()?;
+    let loaded = args.scene.load(registry)?;
     let threads = usize::from(args.threads);
     memory::check(&loaded, threads)?;
     let interrupt = interrupt::listen()?;

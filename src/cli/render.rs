@@ -7,6 +7,7 @@ use super::report::Report;
 use super::target::check_writable;
 use super::{interrupt, memory};
 use crate::film::{PictureMetadata, ToneMap, write_exr, write_png};
+use crate::plan::Registry;
 use crate::render::{Budget, Progress, drive, start};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -45,11 +46,11 @@ pub struct RenderArgs {
 ///
 /// # Errors
 /// Whatever stands in the way, before rendering where it can be known then.
-pub fn run(args: &RenderArgs) -> Result<ExitCode> {
+pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
     let output = args.output.clone().unwrap_or_else(|| default_output(&args.scene.scene));
     let png = output.with_extension("png");
     check_output(&output, &png)?;
-    let loaded = args.scene.load()?;
+    let loaded = args.scene.load(registry)?;
     let threads = args.threads.count();
     memory::check(&loaded, threads)?;
     let interrupt = interrupt::listen()?;
