@@ -1,5 +1,6 @@
 //! What the commands that take a scene have in common: its arguments, and loading it.
 
+use super::chains::ChainArgs;
 use super::output::note;
 use crate::plan::{Plan, PlanOptions, Registry, Technique, UnknownTechnique};
 use crate::scene::{
@@ -8,6 +9,7 @@ use crate::scene::{
 use crate::scene::{description::MAX_FILM_SIDE, flatten, read_scene};
 use clap::Args;
 use miette::{Result, miette};
+use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -17,7 +19,7 @@ use std::time::{Duration, Instant};
 pub struct SceneArgs {
     /// The scene file: RON, or JSON by its extension
     pub scene: PathBuf,
-    /// How to estimate the picture: pt, pt-reference [default: the scene's, or pt]
+    /// How to estimate the picture: pt, pt-reference, pssmlt [default: the scene's, or pt]
     #[arg(long, value_name = "NAME")]
     pub technique: Option<Technique>,
     /// Film size in pixels instead of the scene's, such as 640x480
@@ -31,6 +33,8 @@ pub struct SceneArgs {
     pub tile: Option<u32>,
     #[command(flatten)]
     pub mutations: MutationArgs,
+    #[command(flatten)]
+    pub chains: ChainArgs,
 }
 
 /// Settings of mutations.
@@ -105,8 +109,8 @@ impl SceneArgs {
         }
         let options = PlanOptions {
             tile_size: self.tile,
+            chains: self.chains.settings(),
             mutations,
-            ..PlanOptions::default()
         };
         let plan = Plan::with(&scene, technique, &options)?;
         Ok(Loaded {
@@ -132,7 +136,21 @@ pub fn settings(loaded: &Loaded) -> String {
         FilterDescription::Tent { radius } => format!("tent({radius})"),
         FilterDescription::Gaussian { radius, sigma } => format!("gaussian({radius}, {sigma})"),
     };
-    format!("size={width}x{height} max_depth={max_depth} filter={filter}")
+    let mut settings = format!("size={width}x{height} max_depth={max_depth} filter={filter}");
+    if let Some(chains) = &loaded.plan.chains {
+        let counts = chains.counts;
+        let samples = u64::from(counts.rounds) * u64::from(counts.chains);
+        // Writing to a String cannot fail.
+        let _ = write!(
+            settings,
+            " groups={} chains={} bootstrap={samples}",
+            counts.groups, counts.chains
+        );
+        for planned in &chains.mutations {
+            let _ = write!(settings, " {}={}", planned.mutation.name(), planned.mutation.settings());
+        }
+    }
+    settings
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {

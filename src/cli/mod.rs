@@ -1,7 +1,9 @@
 //! The program's commands, one file each.
 
 mod budget;
+mod chains;
 pub mod compare;
+mod findings;
 mod interrupt;
 mod load;
 mod memory;

@@ -3,14 +3,16 @@
 use super::chain_run::ChainRun;
 use super::rendering::{Rendering, error_blocks};
 use super::tile_world::{TileWorld, lock};
-use super::{RenderError, Start};
+use super::{Findings, RenderError, Start};
 use crate::chain::StateClass;
-use crate::film::{BlockGrid, FilmError, GroupFilm, Picture, Tally, block_means, develop_groups};
+use crate::color::Rgb;
+use crate::film::{BlockGrid, FilmError, GroupFilm, LayerChannels, Picture, Tally, block_means, develop_groups};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::stats::error::PictureError;
 use crate::stats::group_means::GroupMeans;
 use crate::systems::SystemCost;
+use crate::systems::chains::ProposalCount;
 use crate::systems::tile::{Counters, FilmBlocks, GroupFilmRef, SceneRef};
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex};
@@ -119,17 +121,43 @@ impl ChainRender {
         GroupMeans::from_rows(&rows).ok()
     }
 
-    /// Mutations per pixel after `steps` steps.
+    /// Mutations per pixel so far.
     #[must_use]
-    pub fn mutations_per_pixel(&self, steps: u64) -> f64 {
-        steps as f64 * f64::from(self.run.counts().total()) / f64::from(self.scene.pixel_count())
+    pub fn mutations_per_pixel(&self) -> f64 {
+        self.run
+            .counts()
+            .mutations_per_pixel(self.run.steps(), self.scene.pixel_count())
     }
 
-    /// The steps that come nearest to so many mutations per pixel, at least one.
+    /// `picture` with what the groups tell of it, as layers: `block_error`, the standard error of the mean of the pixel's
+    /// block among [`error_blocks`], and `agreement`, how far groups lie apart in the pixel's block among those that states
+    /// are classed by: the ratio of the variance between groups to the one that chains inside them explain, about 1 where
+    /// nothing is wrong, 0 where too little was seen.
     #[must_use]
-    pub fn steps_for(&self, mutations_per_pixel: f64) -> u64 {
-        let mutations = mutations_per_pixel * f64::from(self.scene.pixel_count());
-        (mutations / f64::from(self.run.counts().total())).round().max(1.0) as u64
+    pub fn with_layers(&self, picture: Picture, findings: &Findings) -> Picture {
+        let pixels = 0..self.scene.pixel_count();
+        let grid = error_blocks(&self.scene);
+        let errors: Vec<f32> = self.group_block_means(&grid).map_or_else(Vec::new, |means| {
+            means.estimates().iter().map(|estimate| estimate.error as f32).collect()
+        });
+        let error = |pixel: u32| {
+            let first = 3 * grid.block_of(pixel)?;
+            let [r, g, b] = errors.get(first..first + 3)? else {
+                return None;
+            };
+            Some(Rgb::new(*r, *g, *b))
+        };
+        let ratio = |pixel: u32| {
+            findings
+                .block_ratios
+                .get(self.blocks.block_of(pixel)?)
+                .map(|&ratio| ratio as f32)
+        };
+        let errors = pixels.clone().map(|pixel| error(pixel).unwrap_or_default()).collect();
+        let ratios = pixels.map(|pixel| ratio(pixel).unwrap_or_default()).collect();
+        picture
+            .with_layer("block_error", LayerChannels::Rgb(errors))
+            .with_layer("agreement", LayerChannels::Y(ratios))
     }
 
     /// What a class of states is called in reports.
@@ -197,7 +225,7 @@ impl Rendering for ChainRender {
         let films: Vec<_> = self.films.iter().map(|film| lock(film)).collect();
         let films: Vec<_> = films.iter().map(|film| &**film).collect();
         let scales: Vec<f64> = (0..films.len()).map(|group| self.scale(group)).collect();
-        let weight = self.mutations_per_pixel(self.steps()) as f32;
+        let weight = self.mutations_per_pixel() as f32;
         // All films are of the scene's size, and there is a finite scale for each.
         develop_groups(&films, &scales, weight).unwrap_or_default()
     }
@@ -205,6 +233,19 @@ impl Rendering for ChainRender {
     fn error(&self) -> Option<PictureError> {
         let means = self.group_block_means(&error_blocks(&self.scene))?;
         PictureError::of(&means)?.relative_to(means.grand_mean())
+    }
+
+    fn acceptance(&self) -> Option<f64> {
+        let statistics = self.run.statistics();
+        let all = statistics
+            .proposals
+            .iter()
+            .fold(ProposalCount::default(), |sum, count| sum.plus(*count));
+        (all.proposed > 0).then(|| all.accepted as f64 / all.proposed as f64)
+    }
+
+    fn save(&self) -> Vec<u8> {
+        ChainRender::save(self)
     }
 
     fn tally(&self) -> Tally {

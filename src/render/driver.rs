@@ -57,6 +57,8 @@ pub struct Progress {
     pub steps: u64,
     /// The picture's relative error when it was last looked at.
     pub error: Option<PictureError>,
+    /// The share of proposals taken when it was last looked at, for chains.
+    pub acceptance: Option<f64>,
 }
 
 /// How a render ended.
@@ -89,6 +91,7 @@ pub fn drive(
     let checkpoints = Checkpoints::new(first_checkpoint(render));
     let mut checkpoint = checkpoints.next(render.steps());
     let mut error: Option<PictureError> = None;
+    let mut acceptance = None;
     let samples = AtomicU64::new(u64::from(render.chains()) * render.steps());
     let mut burst = 1;
     let stop = loop {
@@ -125,13 +128,14 @@ pub fn drive(
                 samples,
                 steps: finished,
                 error,
+                acceptance,
             });
         });
         let took = began.elapsed().as_secs_f64().max(1e-9);
         burst = ((steps as f64 * BURST.as_secs_f64() / took) as u64).clamp(1, (2 * steps).max(burst));
         if render.steps() >= checkpoint {
             checkpoint = checkpoints.next(render.steps());
-            error = render.error();
+            (error, acceptance) = (render.error(), render.acceptance());
             if let (Some(target), Some(error)) = (target_error, error)
                 && stopping::decide(&error, target)
             {

@@ -59,6 +59,10 @@ pub enum RenderError {
         /// The technique.
         technique: &'static str,
     },
+    /// What was saved cannot be taken up.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Saved(#[from] SavedRenderError),
     /// Somebody stopped it before the first step.
     #[error("interrupted before the first step")]
     Interrupted,
@@ -76,6 +80,7 @@ pub struct Render {
     pub plan: Plan,
     /// The film.
     pub film: Arc<Film>,
+    seed: u64,
     worlds: Vec<Mutex<TileWorld>>,
     pool: rayon::ThreadPool,
     steps: u64,
@@ -102,6 +107,7 @@ impl Render {
             scene,
             plan,
             film,
+            seed,
             worlds,
             pool,
             steps: 0,
@@ -187,6 +193,10 @@ impl Rendering for Render {
         PictureError::of_independent(&variances).relative_to(mean)
     }
 
+    fn save(&self) -> Vec<u8> {
+        Render::save(self)
+    }
+
     fn tally(&self) -> Tally {
         self.film.tally()
     }
@@ -215,6 +225,28 @@ pub fn start(
         Box::new(ChainRender::start(scene, plan, seed, threads, interrupt, progress)?)
     } else {
         Box::new(Render::new(scene, plan, seed, threads)?)
+    })
+}
+
+/// Takes up a render that [`Rendering::save`] saved: it goes on as if it had never stopped.
+///
+/// # Errors
+/// As [`start`], and for bytes that are no saved render, or one of something else.
+pub fn resume(
+    scene: Arc<Scene>,
+    plan: Plan,
+    seed: u64,
+    threads: usize,
+    saved: &[u8],
+) -> Result<Box<dyn Rendering>, RenderError> {
+    Ok(if plan.chains.is_some() {
+        let mut render = ChainRender::unstarted(scene, plan, seed, threads)?;
+        render.restore(saved)?;
+        Box::new(render)
+    } else {
+        let mut render = Render::new(scene, plan, seed, threads)?;
+        render.restore(saved)?;
+        Box::new(render)
     })
 }
 

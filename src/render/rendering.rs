@@ -38,6 +38,12 @@ pub trait Rendering {
     /// The picture's error so far, relative to its mean: the root mean square over block means of [`error_blocks`] and
     /// channels, with a 95 % interval. `None` while nothing is known of it, or of a black picture.
     fn error(&self) -> Option<PictureError>;
+    /// The share of proposals that chains have taken; `None` without chains.
+    fn acceptance(&self) -> Option<f64> {
+        None
+    }
+    /// The render so far, to be taken up by [`resume`](super::resume).
+    fn save(&self) -> Vec<u8>;
     /// What films could not take as it was.
     fn tally(&self) -> Tally;
     /// The render itself, if it is one with chains.

@@ -136,9 +136,9 @@ fn begin() -> Writer {
 impl Render {
     /// The render so far, to go on from with [`restore`](Self::restore).
     #[must_use]
-    pub fn save(&self, seed: u64) -> Vec<u8> {
+    pub fn save(&self) -> Vec<u8> {
         let mut out = begin();
-        save_identity(&mut out, &identity(&self.scene, &self.plan, seed));
+        save_identity(&mut out, &identity(&self.scene, &self.plan, self.seed));
         out.number(self.steps());
         let mut film = Vec::new();
         self.film.save(&mut film);
@@ -150,9 +150,9 @@ impl Render {
     ///
     /// # Errors
     /// Bytes that are no saved render, or one of another scene, technique, size or seed.
-    pub fn restore(&mut self, seed: u64, bytes: &[u8]) -> Result<(), SavedRenderError> {
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), SavedRenderError> {
         let mut saved = open(bytes)?;
-        check_identity(&mut saved, &identity(&self.scene, &self.plan, seed))?;
+        check_identity(&mut saved, &identity(&self.scene, &self.plan, self.seed))?;
         let steps = saved.number()?;
         self.film.restore(saved.list()?)?;
         self.steps = steps;
