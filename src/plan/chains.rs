@@ -228,6 +228,7 @@ fn core_before() -> Vec<SystemPlan> {
 fn core_after(weighs_choices: bool) -> Vec<SystemPlan> {
     let mut systems = vec![
         SystemPlan::new(WEIGH_SAMPLES, "the normalization is their mean weight"),
+        SystemPlan::new(TALLY_INDEPENDENT, "the normalization gets surer while chains run"),
         SystemPlan::new(COUNT_VISITS, "groups are compared by where their chains are"),
     ];
     if weighs_choices {

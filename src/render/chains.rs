@@ -3,7 +3,7 @@
 use super::chain_run::ChainRun;
 use super::rendering::{Rendering, error_blocks};
 use super::tile_world::{TileWorld, lock};
-use super::{Findings, RenderError, Start};
+use super::{Findings, RenderError};
 use crate::chain::StateClass;
 use crate::color::Rgb;
 use crate::film::{BlockGrid, FilmError, GroupFilm, LayerChannels, Picture, Tally, block_means, develop_groups};
@@ -91,20 +91,13 @@ impl ChainRender {
         })
     }
 
-    /// The factor that turns a group's sums into radiance: b, spread over the pixels, for each step of each chain.
+    /// The factors that turn the groups' sums into radiance: b, spread over the pixels, for each step of each chain.
     #[must_use]
-    pub fn scale(&self, group: usize) -> f64 {
+    pub fn scales(&self) -> Vec<f64> {
         let states = self.run.steps() as f64 * f64::from(self.run.counts().chains);
-        let b = self
-            .run
-            .starts()
-            .get(group)
-            .map_or(0.0, |start: &Start| start.normalization.b);
-        if states > 0.0 {
-            b * f64::from(self.scene.pixel_count()) / states
-        } else {
-            0.0
-        }
+        let pixels = f64::from(self.scene.pixel_count());
+        let scale = |b: f64| if states > 0.0 { b * pixels / states } else { 0.0 };
+        self.run.normalizations().into_iter().map(scale).collect()
     }
 
     /// What every group estimates for the mean radiance of every block and channel (number block · 3 + channel).
@@ -224,7 +217,7 @@ impl Rendering for ChainRender {
     fn picture(&self) -> Picture {
         let films: Vec<_> = self.films.iter().map(|film| lock(film)).collect();
         let films: Vec<_> = films.iter().map(|film| &**film).collect();
-        let scales: Vec<f64> = (0..films.len()).map(|group| self.scale(group)).collect();
+        let scales = self.scales();
         let weight = self.mutations_per_pixel() as f32;
         // All films are of the scene's size, and there is a finite scale for each.
         develop_groups(&films, &scales, weight).unwrap_or_default()

@@ -28,7 +28,7 @@ pub struct Findings {
     pub groups: u32,
     /// Chains of all groups.
     pub chains: u32,
-    /// b, the mean of the groups' own.
+    /// b, the mean of the groups' own, from bootstraps and from independent proposals since.
     pub normalization: f64,
     /// The interval that covers the true b with 95 % probability, by Student's t over groups.
     pub normalization_interval: [f64; 2],
@@ -102,7 +102,7 @@ impl Findings {
         let mut all = ChainStatistics::new(render.run.chains().mutations.len());
         by_group.iter().for_each(|group| all.add(group));
         let starts = render.run.starts();
-        let b: Vec<f64> = starts.iter().map(|start| start.normalization.b).collect();
+        let b = render.run.normalizations();
         let (normalization, normalization_interval) = normalization(&b, starts[0].normalization.interval(0.95));
         let shares = Shares::new(&by_group);
         let agreements = shares.agreements();

@@ -213,6 +213,7 @@ impl ChainRender {
         });
         outcome?;
         self.run.steps = steps;
+        self.run.set_units();
         Ok(())
     }
 }

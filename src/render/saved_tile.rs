@@ -6,7 +6,7 @@
 use super::bytes::{CutOff, Reader, Writer};
 use super::tile_world::TileWorld;
 use crate::plan::TilePlan;
-use crate::systems::chains::{ChainStatistics, ProposalCount};
+use crate::systems::chains::{ChainStatistics, ProposalCount, WeightTally};
 use crate::systems::tile::{Counters, Depths, grow_tables};
 
 /// The tile's state.
@@ -99,6 +99,10 @@ fn save_statistics(out: &mut Writer, statistics: &ChainStatistics) {
         }
     }
     statistics.visits.iter().for_each(|&visits| out.number(visits));
+    let WeightTally { sum, count } = statistics.independent;
+    out.number(sum as u64);
+    out.number((sum >> 64) as u64);
+    out.number(count);
 }
 
 fn restore_statistics(saved: &mut Reader<'_>, statistics: &mut ChainStatistics) -> Result<(), CutOff> {
@@ -112,5 +116,10 @@ fn restore_statistics(saved: &mut Reader<'_>, statistics: &mut ChainStatistics) 
     for visits in &mut statistics.visits {
         *visits = saved.number()?;
     }
+    let (low, high) = (saved.number()?, saved.number()?);
+    statistics.independent = WeightTally {
+        sum: (u128::from(low) | u128::from(high) << 64) as i128,
+        count: saved.number()?,
+    };
     Ok(())
 }
