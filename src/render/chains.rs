@@ -103,11 +103,12 @@ impl ChainRender {
     /// What every group estimates for the mean radiance of every block and channel (number block · 3 + channel).
     #[must_use]
     pub fn group_block_means(&self, grid: &BlockGrid) -> Option<GroupMeans> {
-        let row = |(group, film): (usize, &Arc<Mutex<GroupFilm>>)| block_means(&lock(film), grid, self.scale(group));
+        let scales = self.scales();
+        let row = |(film, scale): (&Arc<Mutex<GroupFilm>>, &f64)| block_means(&lock(film), grid, *scale);
         let rows = self
             .films
             .iter()
-            .enumerate()
+            .zip(&scales)
             .map(row)
             .collect::<Result<Vec<_>, _>>()
             .ok()?;
