@@ -9,7 +9,7 @@ pub struct ChainArgs {
     /// Independent groups of chains, whose spread is the picture's error [default: 16]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
     groups: Option<u32>,
-    /// Chains of each group [default: one for every 8 pixels of the film in all, from 16 to 1024 a group]
+    /// Chains of each group [default: one for every 8 pixels of the film in all, from 64 to 1024 a group]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     chains: Option<u32>,
     /// Samples of each group's bootstrap [default: 64 for each chain, at least 4096]

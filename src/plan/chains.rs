@@ -20,7 +20,7 @@ pub struct ChainSettings {
     /// Groups of chains, each independent of all others: the picture's error is the spread over them. 16 or more where an
     /// interval is to be trusted.
     pub groups: u32,
-    /// Chains of a group; if not given, one for every eight pixels of the whole film, from 16 to 1024.
+    /// Chains of a group; if not given, one for every eight pixels of the whole film, from 64 to 1024.
     pub chains: Option<u32>,
     /// Samples of a group's bootstrap; if not given, 64 for each of its chains, and at least 4096. They are rounded up to
     /// whole samples per chain.
@@ -41,7 +41,7 @@ impl Default for ChainSettings {
 }
 
 /// Chains of a group where the settings do not say.
-const CHAINS: (u32, u32) = (16, 1024);
+const CHAINS: (u32, u32) = (64, 1024);
 /// Pixels for each chain where the settings do not say.
 const PIXELS_PER_CHAIN: u32 = 8;
 /// Samples of a bootstrap for each chain, and at least for each group, where the settings do not say.
