@@ -5,6 +5,7 @@ mod gather_contribution;
 mod weigh_choices;
 
 pub use evaluate_targets::evaluate_targets;
+pub(super) use evaluate_targets::normalized;
 pub(super) use gather_contribution::Brightest;
 pub use gather_contribution::gather_contribution;
 pub use weigh_choices::weigh_choices;

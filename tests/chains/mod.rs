@@ -1,0 +1,3 @@
+//! Markov chains of light paths: the light they find, how they start, the rules they keep, and what must not show.
+
+mod depth_first;
