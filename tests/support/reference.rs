@@ -41,8 +41,8 @@ pub fn over_runs(runs: &[Vec<f64>]) -> Vec<Estimate> {
         .collect()
 }
 
-/// The reference's statistics: means from its picture, errors from its variances.
-pub fn reference(scene: &str) -> Vec<Estimate> {
+/// Layers of a reference, pixel by pixel: the light, and the variance of each pixel's mean.
+fn layers(scene: &str) -> [Vec<[f64; 3]>; 2] {
     let name = scene.replace(".ron", ".exr");
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/references")
@@ -64,9 +64,23 @@ pub fn reference(scene: &str) -> Vec<Estimate> {
             .map(f64::from)
             .collect()
     };
-    let [rgb, variance] = ["", "variance."].map(|layer| ["R", "G", "B"].map(|c| channel(format!("{layer}{c}"))));
-    let means = statistics(|pixel| [0, 1, 2].map(|c| rgb[c][pixel]));
-    let variances = statistics(|pixel| [0, 1, 2].map(|c| variance[c][pixel]));
+    ["", "variance."].map(|layer| {
+        let [r, g, b] = ["R", "G", "B"].map(|c| channel(format!("{layer}{c}")));
+        (0..SIZE * SIZE).map(|pixel| [r[pixel], g[pixel], b[pixel]]).collect()
+    })
+}
+
+/// The reference's light, pixel by pixel.
+pub fn reference_picture(scene: &str) -> Vec<[f64; 3]> {
+    let [light, _] = layers(scene);
+    light
+}
+
+/// The reference's statistics: means from its picture, errors from its variances.
+pub fn reference(scene: &str) -> Vec<Estimate> {
+    let [light, variance] = layers(scene);
+    let means = statistics(|pixel| light[pixel]);
+    let variances = statistics(|pixel| variance[pixel]);
     let per_channel = means.len() / 3;
     let samples = |i: usize| {
         (if i.is_multiple_of(per_channel) {
