@@ -8,7 +8,7 @@
 mod support;
 
 use bevy_ecs::schedule::{Schedules, SingleThreadedExecutor};
-use chainlight::plan::{Place, Stage, Technique};
+use chainlight::plan::{Place, Plan, Stage, Technique};
 use chainlight::render::{Render, Rendering};
 use chainlight::scene::Scene;
 use chainlight::systems::list::TRACE_LOOP;
@@ -16,11 +16,16 @@ use criterion::{BenchmarkId, Criterion, Throughput};
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use support::{bumpy_room, cornell_box, median, start};
+use support::{bumpy_room, cornell_box, median};
 
 const SIZE: u32 = 64;
 const ROUNDS: usize = 15;
 const STEPS_PER_ROUND: u64 = 8;
+
+/// A render on one thread.
+fn start(scene: &Arc<Scene>, technique: Technique, tile: Option<u32>) -> Render {
+    Render::new(Arc::clone(scene), Plan::new(scene, technique, tile), 0, 1).expect("a small film and one thread")
+}
 
 /// Nanoseconds per path of one burst.
 fn ns_per_path(render: &mut Render) -> f64 {

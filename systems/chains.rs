@@ -2,7 +2,7 @@
 
 use crate::chain::{KeyChain, StateClass};
 use crate::path::{ChainKey, ChainTable};
-use crate::plan::{AnyMutation, MAX_MUTATIONS, MutationPlan};
+use crate::plan::{AnyMutation, MAX_MUTATIONS, MovesVertices, MutationPlan};
 use crate::sampling::StreamKey;
 use crate::table::{Read, Rows};
 use bevy_ecs::resource::Resource;
@@ -19,6 +19,7 @@ pub struct Mutations {
     weights: [f32; MAX_MUTATIONS],
     independent: usize,
     selective: bool,
+    depth_first: Arc<[Option<Box<dyn MovesVertices>>]>,
 }
 
 impl Mutations {
@@ -37,6 +38,7 @@ impl Mutations {
             weights,
             independent: list.iter().position(|m| m.is_independent()).unwrap_or(0),
             selective: list.iter().any(|m| m.is_selective() && m.weight() > 0.0),
+            depth_first: list.iter().map(|m| m.depth_first()).collect(),
             list,
         }
     }
@@ -57,6 +59,13 @@ impl Mutations {
     #[must_use]
     pub fn get(&self, number: usize) -> Option<&Arc<dyn AnyMutation>> {
         self.list.get(number)
+    }
+
+    /// How mutation number `number` moves one path after another, if it can.
+    #[inline]
+    #[must_use]
+    pub fn depth_first(&self, number: usize) -> Option<&dyn MovesVertices> {
+        self.depth_first.get(number)?.as_deref()
     }
 
     /// The number of the independent mutation, which bootstraps draw with.

@@ -76,6 +76,9 @@ list! {
     /// Traces whole paths, one after another.
     TRACE_DEPTH_FIRST = TRACE, trace::trace_depth_first, tracing(Traces::Both);
 
+    /// Runs one step of one chain after another, its path traced whole.
+    MUTATE_DEPTH_FIRST = TRACE, trace::mutate_depth_first, in_phases(Phases::STEP), tracing(Traces::Both);
+
     /// Sums a path's light from its vertices.
     GATHER_CONTRIBUTION = EVALUATE, evaluate::gather_contribution;
     /// Writes the target and the splats of every proposal.

@@ -1,10 +1,7 @@
 //! One integration-test binary; each concern is a module beside this file.
-#![expect(
-    clippy::print_stdout,
-    reason = "tests print the smallest bias that they could have seen"
-)]
 
 mod broken_scenes;
+mod chains;
 mod command_line;
 mod geometry;
 mod physics;

@@ -1,8 +1,6 @@
 //! Scenes to measure on, and interleaved measuring.
 
 use chainlight::color::Rgb;
-use chainlight::plan::{Plan, Technique};
-use chainlight::render::Render;
 use chainlight::sampling::{Purpose, StreamKey};
 use chainlight::scene::{
     Emission, Flattened, Format, Geometry, Instance, MaterialDescription, Mesh, Scene, SceneOverrides, flatten,
@@ -97,11 +95,6 @@ fn bumpy_sphere(center: Vec3, radius: f32, side: u32, phase: f32, material: u32)
     }
     mesh.materials = vec![material; mesh.triangles.len()];
     mesh
-}
-
-/// A render on one thread.
-pub fn start(scene: &Arc<Scene>, technique: Technique, tile: Option<u32>) -> Render {
-    Render::new(Arc::clone(scene), Plan::new(scene, technique, tile), 0, 1).expect("a small film and one thread")
 }
 
 /// The median of some figures.

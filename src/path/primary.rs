@@ -93,6 +93,17 @@ pub struct CoordinateColumnsMut<'a> {
 }
 
 impl CoordinateColumnsMut<'_> {
+    /// The same slices, to read.
+    #[must_use]
+    pub const fn shared(&self) -> CoordinateColumns<'_> {
+        CoordinateColumns {
+            choice: self.choice,
+            light: self.light,
+            scatter: self.scatter,
+            roulette: self.roulette,
+        }
+    }
+
     /// Sets the coordinates number `index`.
     #[inline]
     pub fn put(&mut self, index: usize, coordinates: VertexCoordinates) {

@@ -117,6 +117,13 @@ pub enum ChainPlanError {
         /// The state space.
         space: &'static str,
     },
+    /// A mutation that only systems of the staged trace loop can run.
+    #[error("`{mutation}` cannot run one chain after another")]
+    #[diagnostic(help("switch it off with {mutation}:weight=0, or use pssmlt"))]
+    NotDepthFirst {
+        /// The mutation.
+        mutation: &'static str,
+    },
     /// Too many mutations.
     #[error("{count} mutations are planned, and {MAX_MUTATIONS} can be")]
     #[diagnostic(help("give those that are not needed a weight of 0"))]

@@ -8,6 +8,7 @@ mod effect;
 mod mutation;
 mod path_tracing;
 mod pssmlt;
+mod pssmlt_reference;
 mod reference;
 mod system;
 mod table;
@@ -16,7 +17,9 @@ mod tile;
 
 pub use chains::{ChainCounts, ChainPlanError, ChainSettings, StateSystems, chain_tile, choose_mutations};
 pub use effect::{Effect, EffectPlan};
-pub use mutation::{AnyMutation, MAX_MUTATIONS, Mutation, MutationPlan, Registered, Registry, StateSpace};
+pub use mutation::{
+    AnyMutation, MAX_MUTATIONS, MovesVertices, Mutation, MutationPlan, Registered, Registry, StateSpace,
+};
 pub use system::{InPlan, Phases, Place, Stage, SystemPlan, SystemSpec, TraceStep, Traces};
 pub use table::{ColumnPlan, Extent, TableId, TablePlan};
 pub use technique::{Technique, UnknownTechnique};
@@ -112,11 +115,15 @@ impl Plan {
                 reference::tables(&effects),
                 options.tile_size,
             ),
-            Technique::Pssmlt => {
+            Technique::Pssmlt | Technique::PssmltReference => {
                 let mutations = choose_mutations(&options.mutations, StateSpace::PRIMARY, &effects)?;
                 let counts = options.chains.counts(scene.pixel_count());
                 let states = pssmlt::states(scene, &effects);
-                let tile = chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size);
+                let tile = if technique == Technique::Pssmlt {
+                    chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size)
+                } else {
+                    pssmlt_reference::tile(states, &mutations, counts, &effects, options.tile_size)?
+                };
                 chains = Some(ChainPlan { counts, mutations });
                 tile
             }

@@ -4,6 +4,8 @@ use super::effect::EffectPlan;
 use super::system::SystemPlan;
 use super::table::TablePlan;
 use crate::chain::StateClass;
+use crate::path::{FilmCoordinates, VertexCoordinates};
+use crate::sampling::StreamKey;
 use crate::scene::nearest_name;
 use bevy_ecs::resource::Resource;
 use bevy_ecs::world::World;
@@ -64,6 +66,21 @@ pub trait Mutation: Clone + Default + fmt::Debug + Serialize + DeserializeOwned 
     fn columns(&self, tables: &mut [TablePlan]) {
         let _ = tables;
     }
+
+    /// How it moves one path after another, if it can: techniques that run chains depth first ask for it.
+    fn depth_first(&self) -> Option<Box<dyn MovesVertices>> {
+        None
+    }
+}
+
+/// A mutation of primary sample space that moves a path's coordinates as the path reaches them, is as likely one way as the
+/// other, and draws coordinates beyond the end of the current path afresh. Its systems do the same for many chains at once.
+pub trait MovesVertices: fmt::Debug + Send + Sync {
+    /// Where the proposal of a path that starts at `current` starts; draws come from `key`.
+    fn film(&self, current: FilmCoordinates, key: StreamKey) -> FilmCoordinates;
+
+    /// The proposal's coordinates of the vertex at `depth`, which has the coordinates `current`.
+    fn vertex(&self, current: VertexCoordinates, key: StreamKey, depth: u32) -> VertexCoordinates;
 }
 
 /// The kind of states that chains move between, by name.
@@ -109,6 +126,8 @@ pub trait AnyMutation: fmt::Debug + Send + Sync {
     fn systems(&self) -> Vec<SystemPlan>;
     /// [`Mutation::columns`].
     fn columns(&self, tables: &mut [TablePlan]);
+    /// [`Mutation::depth_first`].
+    fn depth_first(&self) -> Option<Box<dyn MovesVertices>>;
     /// Its settings, as JSON.
     fn settings(&self) -> serde_json::Value;
     /// The same mutation with the setting `key` at `value`.
@@ -150,6 +169,9 @@ impl<M: Mutation> AnyMutation for M {
     }
     fn columns(&self, tables: &mut [TablePlan]) {
         Mutation::columns(self, tables);
+    }
+    fn depth_first(&self) -> Option<Box<dyn MovesVertices>> {
+        Mutation::depth_first(self)
     }
     fn settings(&self) -> serde_json::Value {
         serde_json::to_value(self).unwrap_or_default()

@@ -73,6 +73,20 @@ impl Phases {
         }
     }
 
+    /// In these, but in none of `other`.
+    #[must_use]
+    pub const fn without(self, other: Self) -> Self {
+        Self {
+            bits: self.bits & !other.bits,
+        }
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub const fn is_empty(self) -> bool {
+        self.bits == 0
+    }
+
     /// Whether these have all of `other`.
     #[must_use]
     pub const fn has(self, other: Self) -> bool {

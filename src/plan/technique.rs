@@ -13,6 +13,8 @@ pub enum Technique {
     PtReference,
     /// Primary-sample-space Metropolis light transport (Kelemen, Szirmay-Kalos, Antal and Csonka 2002) over path tracing.
     Pssmlt,
+    /// The same chains run depth first, one after another: the oracle of the staged ones, and their baseline.
+    PssmltReference,
 }
 
 /// No technique has this name.
@@ -37,7 +39,10 @@ fn hint(nearest: &Option<&'static str>) -> String {
 
 impl Technique {
     /// Every technique.
-    pub const ALL: [Self; 3] = [Self::Pt, Self::PtReference, Self::Pssmlt];
+    pub const ALL: [Self; 4] = [Self::Pt, Self::PtReference, Self::Pssmlt, Self::PssmltReference];
+
+    /// Those whose samples are independent.
+    pub const INDEPENDENT: [Self; 2] = [Self::Pt, Self::PtReference];
 
     /// The name on the command line and in files.
     #[must_use]
@@ -46,6 +51,7 @@ impl Technique {
             Self::Pt => "pt",
             Self::PtReference => "pt-reference",
             Self::Pssmlt => "pssmlt",
+            Self::PssmltReference => "pssmlt-reference",
         }
     }
 }

@@ -6,6 +6,7 @@ mod tally_independent;
 mod weigh_choices;
 
 pub use evaluate_targets::evaluate_targets;
+pub(super) use evaluate_targets::normalized;
 pub(super) use gather_contribution::Brightest;
 pub use gather_contribution::gather_contribution;
 pub use tally_independent::tally_independent;

@@ -15,7 +15,8 @@ use crate::path::{
     ChainTable, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth, ProposedPrimaryTable,
     VertexCoordinates,
 };
-use crate::plan::{Mutation, Registered, StateSpace, SystemPlan};
+use crate::plan::{MovesVertices, Mutation, Registered, StateSpace, SystemPlan};
+use crate::sampling::StreamKey;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::Res;
 use serde::{Deserialize, Serialize};
@@ -41,6 +42,24 @@ impl Mutation for Identity {
             SystemPlan::new(PROPOSE_IDENTITIES, "the path starts where it starts"),
             SystemPlan::new(DRAW_IDENTITIES, "and goes where it goes"),
         ]
+    }
+
+    fn depth_first(&self) -> Option<Box<dyn MovesVertices>> {
+        Some(Box::new(Unmoved))
+    }
+}
+
+/// The same, one path after another.
+#[derive(Clone, Copy, Debug)]
+struct Unmoved;
+
+impl MovesVertices for Unmoved {
+    fn film(&self, current: FilmCoordinates, _: StreamKey) -> FilmCoordinates {
+        current
+    }
+
+    fn vertex(&self, current: VertexCoordinates, _: StreamKey, _: u32) -> VertexCoordinates {
+        current
     }
 }
 

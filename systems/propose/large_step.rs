@@ -19,7 +19,8 @@ use crate::chain::{ChosenMutation, MutationList};
 use crate::path::{
     ChainTable, DrawList, FilmCoordinates, PathLength, ProposedDepth, ProposedPrimaryTable, VertexCoordinates,
 };
-use crate::plan::{Mutation, Registered, StateSpace, SystemPlan};
+use crate::plan::{MovesVertices, Mutation, Registered, StateSpace, SystemPlan};
+use crate::sampling::StreamKey;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::Res;
 use serde::{Deserialize, Serialize};
@@ -55,6 +56,24 @@ impl Mutation for LargeStep {
             ),
             SystemPlan::new(DRAW_LARGE_STEPS, "and go on anywhere"),
         ]
+    }
+
+    fn depth_first(&self) -> Option<Box<dyn MovesVertices>> {
+        Some(Box::new(Afresh))
+    }
+}
+
+/// The same, one path after another.
+#[derive(Clone, Copy, Debug)]
+struct Afresh;
+
+impl MovesVertices for Afresh {
+    fn film(&self, _: FilmCoordinates, key: StreamKey) -> FilmCoordinates {
+        FilmCoordinates::independent(key)
+    }
+
+    fn vertex(&self, _: VertexCoordinates, key: StreamKey, depth: u32) -> VertexCoordinates {
+        VertexCoordinates::independent(key, depth)
     }
 }
 

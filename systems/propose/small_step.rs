@@ -21,7 +21,8 @@ use crate::path::{
     ChainTable, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth, ProposedPrimaryTable,
     VertexCoordinates,
 };
-use crate::plan::{Mutation, Registered, StateSpace, SystemPlan};
+use crate::plan::{MovesVertices, Mutation, Registered, StateSpace, SystemPlan};
+use crate::sampling::StreamKey;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::Res;
 use serde::{Deserialize, Serialize};
@@ -81,6 +82,24 @@ impl Mutation for SmallStep {
             SystemPlan::new(PROPOSE_SMALL_STEPS, "small steps start near where the path starts"),
             SystemPlan::new(DRAW_SMALL_STEPS, "and go on near where it goes"),
         ]
+    }
+
+    fn depth_first(&self) -> Option<Box<dyn MovesVertices>> {
+        Some(Box::new(Nearby(self.kernel())))
+    }
+}
+
+/// The same, one path after another.
+#[derive(Clone, Debug)]
+struct Nearby(Kernel);
+
+impl MovesVertices for Nearby {
+    fn film(&self, current: FilmCoordinates, key: StreamKey) -> FilmCoordinates {
+        current.perturbed(&self.0, key)
+    }
+
+    fn vertex(&self, current: VertexCoordinates, key: StreamKey, depth: u32) -> VertexCoordinates {
+        current.perturbed(&self.0, key, depth)
     }
 }
 

@@ -93,6 +93,7 @@ impl<'a> Tracer<'a> {
             let Some(point) = self.closest(origin, direction) else {
                 break;
             };
+            self.counters.vertices += 1;
             let met = throughput * self.emission(&point, direction, position, density, kind);
             radiance += met;
             if depth == scene.max_depth {

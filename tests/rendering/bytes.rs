@@ -1,7 +1,8 @@
 //! The picture's bytes are a function of (scene, settings, seed, steps) and of nothing else.
 
 use super::{shipped, start};
-use chainlight::film::{Picture, PictureMetadata, encode_exr};
+use crate::support::render::picture_bytes;
+use chainlight::film::{PictureMetadata, encode_exr};
 use chainlight::plan::Technique;
 use chainlight::render::{Budget, Rendering, Stop, drive};
 use chainlight::scene::Scene;
@@ -17,15 +18,6 @@ const STEPS: u64 = 6;
 /// SHA-256 of [`picture_bytes`] of the glass box, by the pictures that this renderer made when the test was written.
 /// It must hold in debug and in release, on every machine. Change it only with a change that is meant to change light.
 const GOLDEN: &str = "d630a10cb29c62cd651652febe6b148ab4f0fd120bd4bbb6eae8a62d4d6ba4f6";
-
-/// Everything a picture says, as bytes.
-fn picture_bytes(picture: &Picture) -> Vec<u8> {
-    let channels = picture.rgb.iter().chain(&picture.error).flat_map(|rgb| rgb.to_array());
-    channels
-        .chain(picture.weight.iter().copied())
-        .flat_map(f32::to_le_bytes)
-        .collect()
-}
 
 fn bytes(scene: &Arc<Scene>, seed: u64, threads: usize, tile: Option<u32>) -> Vec<u8> {
     let mut render = start(scene, Technique::Pt, seed, threads, tile);

@@ -35,7 +35,7 @@ fn both_count_the_same_rays() {
             "every chain decides exactly once a step"
         );
         assert_eq!(counters.non_finite, 0);
-        (counters.rays, counters.segments)
+        (counters.rays, counters.segments, counters.vertices)
     });
     assert_eq!(counted[0], counted[1]);
 }

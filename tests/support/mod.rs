@@ -1,6 +1,9 @@
-//! What tests of different concerns share: draws, cells to count in, verdicts, and small renders.
+//! What tests of different concerns share: draws, cells to count in, verdicts, scenes, references, and small renders.
 
 pub mod cells;
+pub mod chains;
 pub mod draws;
+pub mod reference;
 pub mod render;
+pub mod scenes;
 pub mod verdict;

@@ -61,3 +61,12 @@ pub fn quarters(picture: &Picture, channel: usize) -> [Estimate; 4] {
     let half = SIDE / 2;
     [0, 1, 2, 3].map(|q| mean(picture, channel, |x, y| x / half + 2 * (y / half) == q))
 }
+
+/// Everything a picture says, as bytes.
+pub fn picture_bytes(picture: &Picture) -> Vec<u8> {
+    let channels = picture.rgb.iter().chain(&picture.error).flat_map(|rgb| rgb.to_array());
+    channels
+        .chain(picture.weight.iter().copied())
+        .flat_map(f32::to_le_bytes)
+        .collect()
+}

@@ -1,0 +1,46 @@
+//! Scenes of tests: those that ship, and those that a test writes.
+
+use chainlight::scene::{Format, Scene, SceneOverrides, SceneSource, flatten, parse_scene, read_scene};
+use std::path::Path;
+use std::sync::Arc;
+
+/// A shipped scene, compiled with a film of `size` x `size` pixels and the given filter instead of its own.
+pub fn shipped(name: &str, size: u32) -> Arc<Scene> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name);
+    compile(
+        &read_scene(&path).unwrap_or_else(|error| panic!("{}", error.plain())),
+        size,
+    )
+}
+
+/// A shipped scene with the box filter of the references, its lights scaled by `brightness`.
+pub fn box_filtered(name: &str, size: u32, brightness: f32) -> Arc<Scene> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name);
+    let mut source = read_scene(&path).unwrap_or_else(|error| panic!("{}", error.plain()));
+    source.description.film.filter = Default::default();
+    for emission in source
+        .description
+        .shapes
+        .iter_mut()
+        .filter_map(|shape| shape.emission.as_mut())
+    {
+        *emission = *emission * brightness;
+    }
+    compile(&source, size)
+}
+
+/// A scene written in a test.
+pub fn inline(text: &str, size: u32) -> Arc<Scene> {
+    let source = parse_scene("inline.ron", text, Format::Ron, Path::new("."));
+    compile(&source.unwrap_or_else(|error| panic!("{}", error.plain())), size)
+}
+
+/// A scene compiled with a square film of `size` x `size` pixels.
+pub fn compile(source: &SceneSource, size: u32) -> Arc<Scene> {
+    let flattened = flatten(source).unwrap_or_else(|error| panic!("{}", error.plain()));
+    let overrides = SceneOverrides {
+        size: Some((size, size)),
+        max_depth: None,
+    };
+    Arc::new(Scene::compile(&source.description, &flattened, overrides).expect("a valid filter"))
+}
