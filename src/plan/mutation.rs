@@ -1,6 +1,7 @@
 //! Mutations: how a chain proposes its next state. Each is one file of its own; this is what it has to say of itself.
 
 use super::effect::EffectPlan;
+use super::support::Support;
 use super::system::SystemPlan;
 use super::table::TablePlan;
 use crate::chain::StateClass;
@@ -64,6 +65,12 @@ pub trait Mutation: Clone + Default + fmt::Debug + Serialize + DeserializeOwned 
     fn columns(&self, tables: &mut [TablePlan]) {
         let _ = tables;
     }
+
+    /// Where its proposals can be: what [`check`](crate::check) tests its density against. Without it, the density goes
+    /// untested, and reports say so.
+    fn support(&self) -> Option<Support> {
+        None
+    }
 }
 
 /// The kind of states that chains move between, by name.
@@ -109,6 +116,8 @@ pub trait AnyMutation: fmt::Debug + Send + Sync {
     fn systems(&self) -> Vec<SystemPlan>;
     /// [`Mutation::columns`].
     fn columns(&self, tables: &mut [TablePlan]);
+    /// [`Mutation::support`].
+    fn support(&self) -> Option<Support>;
     /// Its settings, as JSON.
     fn settings(&self) -> serde_json::Value;
     /// The same mutation with the setting `key` at `value`.
@@ -150,6 +159,9 @@ impl<M: Mutation> AnyMutation for M {
     }
     fn columns(&self, tables: &mut [TablePlan]) {
         Mutation::columns(self, tables);
+    }
+    fn support(&self) -> Option<Support> {
+        Mutation::support(self)
     }
     fn settings(&self) -> serde_json::Value {
         serde_json::to_value(self).unwrap_or_default()
@@ -202,7 +214,8 @@ impl Registry {
         self
     }
 
-    fn put(&mut self, mutation: Arc<dyn AnyMutation>) {
+    /// Adds a mutation of any type, in place of one of its name.
+    pub fn put(&mut self, mutation: Arc<dyn AnyMutation>) {
         match self.mutations.iter_mut().find(|known| known.name() == mutation.name()) {
             Some(known) => *known = mutation,
             None => self.mutations.push(mutation),

@@ -15,7 +15,7 @@ use crate::path::{
     ChainTable, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth, ProposedPrimaryTable,
     VertexCoordinates,
 };
-use crate::plan::{Mutation, Registered, StateSpace, SystemPlan};
+use crate::plan::{Mutation, Registered, StateSpace, Support, SystemPlan};
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::Res;
 use serde::{Deserialize, Serialize};
@@ -41,6 +41,10 @@ impl Mutation for Identity {
             SystemPlan::new(PROPOSE_IDENTITIES, "the path starts where it starts"),
             SystemPlan::new(DRAW_IDENTITIES, "and goes where it goes"),
         ]
+    }
+
+    fn support(&self) -> Option<Support> {
+        Some(Support::State)
     }
 }
 

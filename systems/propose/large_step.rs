@@ -19,7 +19,7 @@ use crate::chain::{ChosenMutation, MutationList};
 use crate::path::{
     ChainTable, DrawList, FilmCoordinates, PathLength, ProposedDepth, ProposedPrimaryTable, VertexCoordinates,
 };
-use crate::plan::{Mutation, Registered, StateSpace, SystemPlan};
+use crate::plan::{Mutation, Registered, StateSpace, Support, SystemPlan};
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::Res;
 use serde::{Deserialize, Serialize};
@@ -55,6 +55,10 @@ impl Mutation for LargeStep {
             ),
             SystemPlan::new(DRAW_LARGE_STEPS, "and go on anywhere"),
         ]
+    }
+
+    fn support(&self) -> Option<Support> {
+        Some(Support::Space)
     }
 }
 

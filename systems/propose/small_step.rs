@@ -12,7 +12,7 @@
 //! the product over the coordinates that both paths have.
 
 use super::super::chains::{Keys, MutationLists};
-use super::super::list::{DRAW_SMALL_STEPS, PROPOSE_SMALL_STEPS};
+use super::super::list::*;
 use super::super::tile::{Queues, TilePlace};
 use super::super::trace::draws::{CoordinatesMut, CurrentCoordinates};
 use super::proposal::Proposals;
@@ -21,7 +21,7 @@ use crate::path::{
     ChainTable, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth, ProposedPrimaryTable,
     VertexCoordinates,
 };
-use crate::plan::{Mutation, Registered, StateSpace, SystemPlan};
+use crate::plan::{Mutation, Region, Registered, StateSpace, Support, SystemPlan};
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::Res;
 use serde::{Deserialize, Serialize};
@@ -81,6 +81,19 @@ impl Mutation for SmallStep {
             SystemPlan::new(PROPOSE_SMALL_STEPS, "small steps start near where the path starts"),
             SystemPlan::new(DRAW_SMALL_STEPS, "and go on near where it goes"),
         ]
+    }
+
+    fn support(&self) -> Option<Support> {
+        Some(Support::Region(Region {
+            draw: vec![
+                SystemPlan::new(PROPOSE_SMALL_SUPPORTS, "any start that a small step can reach"),
+                SystemPlan::new(DRAW_SMALL_SUPPORTS, "and any way on"),
+            ],
+            weigh: vec![SystemPlan::new(
+                WEIGH_SMALL_SUPPORTS,
+                "1 over the length that each shared coordinate can reach",
+            )],
+        }))
     }
 }
 
