@@ -5,6 +5,7 @@
 )]
 
 mod broken_scenes;
+mod check;
 mod command_line;
 mod geometry;
 mod physics;

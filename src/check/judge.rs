@@ -118,9 +118,19 @@ impl Reader<'_> {
         }
     }
 
-    /// Pairs between which too little flows are judged as one.
+    /// Pairs between which too little flows are judged as one. All pairs together say whether as much goes up the family's
+    /// order as down: where cells are lengths or octaves, the test that sees most.
     fn read_pairs(&mut self) {
         let mut rare = Tally::default();
+        let mut all = Tally::default();
+        self.sheet.rows.iter().for_each(|row| all.merge(row));
+        let mean = all.mean(self.replicas);
+        if mean.effective >= LEAST_EFFECTIVE {
+            let (first, last) = (self.family.cells.first(), self.family.cells.last());
+            let name = |cell: Option<&String>| cell.cloned().unwrap_or_default();
+            let name = format!("{} ... {}, up and down", name(first), name(last));
+            self.push(&all, mean, name, mean.size);
+        }
         let mut rare_pairs = 0;
         for (pair, row) in self.sheet.rows.iter().enumerate() {
             let mean = row.mean(self.replicas);

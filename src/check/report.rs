@@ -256,7 +256,7 @@ impl fmt::Display for Report {
         let verdict = if self.passed() { "passed" } else { "FAILED" };
         writeln!(
             f,
-            "{}: {verdict}; {} tests at {} % in all, {} replicas, {:.1} s",
+            "{}: {verdict}; {} tests at {:.2} % in all, {} replicas, {:.1} s",
             self.mutation,
             self.tests.len(),
             100.0 * self.significance,

@@ -20,7 +20,8 @@ use std::time::Instant;
 pub struct Options {
     /// Replicas of the target and flow tests; rounded up to whole batches.
     pub replicas: u64,
-    /// Proposals of the density tests; rounded up likewise.
+    /// Proposals that densities over a region are tested with; rounded up likewise. For the whole space it is as many as the
+    /// replicas of other tests.
     pub density_replicas: u64,
     /// The most edges of the paths whose density is tested, where it is known over a region: each coordinate that a proposal
     /// shares with the state makes 1/T vary more.
@@ -39,7 +40,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             replicas: 1 << 17,
-            density_replicas: 1 << 18,
+            density_replicas: 1 << 20,
             density_depth: 2,
             steps: vec![1, 2, 8],
             seed: 0,
@@ -210,17 +211,16 @@ impl Check<'_> {
 
     /// The tests of the density, as far as the mutation's support allows.
     fn density(&self) -> Result<(Option<Run>, Tested), CheckError> {
-        let replicas = self.options.density_replicas;
         let (subject, sums, tested) = match self.mutation.support() {
             None => return Ok((None, Tested::NoSupport)),
             Some(Support::State) => {
                 let subject = self.subject(self.alone()?, self.scene)?;
-                let sums = self.deal(replicas, || subject.replicas(), density::run_state)?;
+                let sums = self.deal(self.options.replicas, || subject.replicas(), density::run_state)?;
                 (subject, sums, Tested::PointMass)
             }
             Some(Support::Space) => {
                 let subject = self.subject(self.alone()?, self.scene)?;
-                let sums = self.deal(replicas, || subject.replicas(), density::run_space)?;
+                let sums = self.deal(self.options.replicas, || subject.replicas(), density::run_space)?;
                 (subject, sums, Tested::Space)
             }
             Some(Support::Region(region)) => {
@@ -238,7 +238,7 @@ impl Check<'_> {
                 let subject = with(Instrumented::weighed(self.mutation, &region))?;
                 let drawn = with(Instrumented::drawn(self.mutation, &region))?;
                 let sums = self.deal(
-                    replicas,
+                    self.options.density_replicas,
                     || Ok((subject.replicas()?, drawn.replicas()?)),
                     density::run_region,
                 )?;

@@ -165,7 +165,7 @@ mod tests {
                 tally.add(value - 0.025, chain);
             }
             let mean = tally.mean(n);
-            let mut count = |counts: &mut [i32; 2], z: f64| {
+            let count = |counts: &mut [i32; 2], z: f64| {
                 counts[0] += i32::from(z < -limit);
                 counts[1] += i32::from(z > limit);
             };

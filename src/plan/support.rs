@@ -22,7 +22,7 @@ pub struct Region {
     /// Systems that propose with the density q, in place of the mutation's own: they find their chains, and the mutation's
     /// settings, where those do.
     pub draw: Vec<SystemPlan>,
-    /// Systems of the evaluate stage that write ln q(x→y) to [`SupportDensity`](crate::chain::SupportDensity), whichever
+    /// Systems of the evaluate stage, where they run before the proposal's light is gathered, that write ln q(x→y) to [`SupportDensity`](crate::chain::SupportDensity), whichever
     /// systems proposed y.
     pub weigh: Vec<SystemPlan>,
 }
