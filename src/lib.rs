@@ -41,6 +41,7 @@ pub use bevy_ecs;
 
 pub mod camera;
 pub mod chain;
+pub mod check;
 pub mod cli;
 pub mod color;
 pub mod film;

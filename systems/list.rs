@@ -43,6 +43,12 @@ list! {
     PROPOSE_SMALL_STEPS = PROPOSE, propose::propose_small_steps;
     /// Moves the coordinates of their vertices.
     DRAW_SMALL_STEPS = DRAW, propose::draw_small_steps;
+    /// Draws where on the film small steps can lead, uniformly.
+    PROPOSE_SMALL_SUPPORTS = PROPOSE, propose::propose_small_supports;
+    /// Draws where the coordinates of their vertices can be led, uniformly.
+    DRAW_SMALL_SUPPORTS = DRAW, propose::draw_small_supports;
+    /// Writes the density of those draws.
+    WEIGH_SMALL_SUPPORTS = EVALUATE, propose::weigh_small_supports, in_phases(Phases::STEP);
     /// Starts chains that stay where they are.
     PROPOSE_IDENTITIES = PROPOSE, propose::propose_identities;
     /// Copies the coordinates of their vertices.

@@ -2,6 +2,7 @@
 
 mod broken_scenes;
 mod chains;
+mod check;
 mod command_line;
 mod geometry;
 mod physics;

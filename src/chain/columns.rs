@@ -21,6 +21,9 @@ columns! {
     /// The logarithm of what both densities have in common and the acceptance does not need. Exists where densities are
     /// looked at: in tests and replays.
     pub CommonDensity: f64;
+    /// ln q(x→y): the density with which the support of the chosen mutation is drawn, see
+    /// [`Support`](crate::plan::Support). Exists where densities are tested.
+    pub SupportDensity: f64;
     /// The probability a(x→y) of taking the proposal. 1 − a is exact: a is a multiple of 2⁻⁵³.
     pub Acceptance: f64;
     /// Steps since the last proposal was taken.

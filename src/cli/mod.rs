@@ -2,6 +2,7 @@
 
 mod budget;
 mod chains;
+pub mod check;
 pub mod compare;
 mod findings;
 mod interrupt;
@@ -36,6 +37,8 @@ enum Command {
     Profile(profile::ProfileArgs),
     /// Compare a picture with a reference of the same size.
     Compare(compare::CompareArgs),
+    /// Try to refute mutations: hold them against the target, detailed balance, and their own densities.
+    Check(check::CheckArgs),
 }
 
 /// Runs the command that the arguments name, with the mutations of this crate.
@@ -56,6 +59,7 @@ pub fn run_with(cli: &Cli, registry: &Registry) -> miette::Result<ExitCode> {
         Command::Render(args) => render::run(args, registry),
         Command::Plan(args) => plan::run(args, registry).map(|()| ExitCode::SUCCESS),
         Command::Profile(args) => profile::run(args, registry).map(|()| ExitCode::SUCCESS),
+        Command::Check(args) => check::run(args, registry),
         Command::Compare(args) => compare::run(args).map(|()| ExitCode::SUCCESS),
     }
 }

@@ -31,7 +31,7 @@ use tree::Tree;
 pub const NOT_EMITTING: u32 = u32::MAX;
 
 /// All shapes of a scene in world space, as tables, and the tree over their primitives. Read-only while rendering.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Geometry {
     /// One row per shape of the scene.
     pub(crate) instances: Vec<Instance>,

@@ -16,7 +16,7 @@ use std::time::Duration;
 const PAIR_COST: f32 = 2.0;
 
 /// A binary tree of boxes over primitives.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Tree {
     pairs: Vec<Pair>,
     primitives: Vec<LeafPrimitive>,

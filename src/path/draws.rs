@@ -87,6 +87,16 @@ impl FilmCoordinates {
         Self(self.0.map(|c| kernel.perturb_wide(c, stream.next_u32())))
     }
 
+    /// How many coordinates there are.
+    pub const COUNT: u32 = 2;
+
+    /// Coordinates uniform over those that a small step from these can reach.
+    #[must_use]
+    pub fn uniform_in_support(self, kernel: &Kernel, key: StreamKey) -> Self {
+        let mut stream = key.stream(Purpose::PERTURB, 0);
+        Self(self.0.map(|c| kernel.uniform_in_support_wide(c, stream.next_u32())))
+    }
+
     /// ln of the density of the small step from these to `to`.
     #[must_use]
     pub fn log_density(self, kernel: &Kernel, to: Self) -> f64 {
@@ -149,6 +159,26 @@ impl VertexCoordinates {
             scatter,
             roulette: if plays {
                 kernel.perturb(self.roulette, stream.next_u32())
+            } else {
+                0
+            },
+        }
+    }
+
+    /// Coordinates of the vertex at `depth` uniform over those that a small step from these can reach.
+    #[must_use]
+    pub fn uniform_in_support(self, kernel: &Kernel, key: StreamKey, depth: u32) -> Self {
+        let mut stream = key.stream(Purpose::PERTURB, depth);
+        let scatter = self.scatter.map(|c| kernel.uniform_in_support(c, stream.next_u32()));
+        let choice = kernel.uniform_in_support_wide(self.choice, stream.next_u32());
+        let light = self.light.map(|c| kernel.uniform_in_support(c, stream.next_u32()));
+        let plays = depth >= roulette::FIRST_DEPTH;
+        Self {
+            choice,
+            light,
+            scatter,
+            roulette: if plays {
+                kernel.uniform_in_support(self.roulette, stream.next_u32())
             } else {
                 0
             },

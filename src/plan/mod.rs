@@ -10,6 +10,7 @@ mod path_tracing;
 mod pssmlt;
 mod pssmlt_reference;
 mod reference;
+mod support;
 mod system;
 mod table;
 mod technique;
@@ -20,6 +21,7 @@ pub use effect::{Effect, EffectPlan};
 pub use mutation::{
     AnyMutation, MAX_MUTATIONS, MovesVertices, Mutation, MutationPlan, Registered, Registry, StateSpace,
 };
+pub use support::{Region, Support};
 pub use system::{InPlan, Phases, Place, Stage, SystemPlan, SystemSpec, TraceStep, Traces};
 pub use table::{ColumnPlan, Extent, TableId, TablePlan};
 pub use technique::{Technique, UnknownTechnique};

@@ -1,6 +1,7 @@
 //! Mutations: how a chain proposes its next state. Each is one file of its own; this is what it has to say of itself.
 
 use super::effect::EffectPlan;
+use super::support::Support;
 use super::system::SystemPlan;
 use super::table::TablePlan;
 use crate::chain::StateClass;
@@ -71,6 +72,12 @@ pub trait Mutation: Clone + Default + fmt::Debug + Serialize + DeserializeOwned 
     fn depth_first(&self) -> Option<Box<dyn MovesVertices>> {
         None
     }
+
+    /// Where its proposals can be: what [`check`](crate::check) tests its density against. Without it, the density goes
+    /// untested, and reports say so.
+    fn support(&self) -> Option<Support> {
+        None
+    }
 }
 
 /// A mutation of primary sample space that moves a path's coordinates as the path reaches them, is as likely one way as the
@@ -128,6 +135,8 @@ pub trait AnyMutation: fmt::Debug + Send + Sync {
     fn columns(&self, tables: &mut [TablePlan]);
     /// [`Mutation::depth_first`].
     fn depth_first(&self) -> Option<Box<dyn MovesVertices>>;
+    /// [`Mutation::support`].
+    fn support(&self) -> Option<Support>;
     /// Its settings, as JSON.
     fn settings(&self) -> serde_json::Value;
     /// The same mutation with the setting `key` at `value`.
@@ -172,6 +181,9 @@ impl<M: Mutation> AnyMutation for M {
     }
     fn depth_first(&self) -> Option<Box<dyn MovesVertices>> {
         Mutation::depth_first(self)
+    }
+    fn support(&self) -> Option<Support> {
+        Mutation::support(self)
     }
     fn settings(&self) -> serde_json::Value {
         serde_json::to_value(self).unwrap_or_default()
@@ -224,7 +236,8 @@ impl Registry {
         self
     }
 
-    fn put(&mut self, mutation: Arc<dyn AnyMutation>) {
+    /// Adds a mutation of any type, in place of one of its name.
+    pub fn put(&mut self, mutation: Arc<dyn AnyMutation>) {
         match self.mutations.iter_mut().find(|known| known.name() == mutation.name()) {
             Some(known) => *known = mutation,
             None => self.mutations.push(mutation),

@@ -100,6 +100,14 @@ impl ChainRender {
         self.run.normalizations().into_iter().map(scale).collect()
     }
 
+    /// The steps that come nearest to so many mutations per pixel, at least one.
+    #[must_use]
+    pub fn steps_for(&self, mutations_per_pixel: f64) -> u64 {
+        self.run
+            .counts()
+            .steps_for(mutations_per_pixel, self.scene.pixel_count())
+    }
+
     /// What every group estimates for the mean radiance of every block and channel (number block · 3 + channel).
     #[must_use]
     pub fn group_block_means(&self, grid: &BlockGrid) -> Option<GroupMeans> {

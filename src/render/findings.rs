@@ -18,6 +18,8 @@ use serde::Serialize;
 const ALPHA: f64 = 0.01;
 /// Visits of a batch in the mean below which a class is too rare for a ratio of variances to mean anything.
 const LEAST_VISITS: f64 = 64.0;
+/// Visits of a group below which it may have missed a class by chance, since a chain stays where it is for a while.
+const MISSED_VISITS: f64 = 2048.0;
 /// A class that has this share of the light and is missed by a group is named.
 const NOTABLE_SHARE: f64 = 1e-4;
 
@@ -48,6 +50,8 @@ pub struct Findings {
     pub effective_samples: Option<EffectiveSamples>,
     /// Classes in which groups disagree more than their own spread explains.
     pub disagreements: Vec<ClassFinding>,
+    /// Notable classes that some groups have never been in.
+    pub missed: Vec<ClassFinding>,
     /// Classes whose share of the light differs from what the bootstraps found.
     pub against_bootstrap: Vec<ClassFinding>,
     /// Ratio of the spread between groups to that expected from inside them, for every block that was visited often enough;
@@ -87,7 +91,8 @@ pub struct ClassFinding {
     pub class: String,
     /// Its share of the light, by the chains.
     pub share: f64,
-    /// What it is compared with: for groups, the ratio of variances; for bootstraps, their share.
+    /// What it is compared with: for groups, the ratio of variances; for bootstraps, their share; for missed classes, the
+    /// share of the groups that missed it.
     pub against: f64,
     /// The probability of as much when nothing is wrong.
     pub p: f64,
@@ -129,6 +134,7 @@ impl Findings {
             longest_rejections_chain,
             effective_samples: shares.of_blocks().and_then(|shares| effective_sample_size(&shares)),
             disagreements: disagreements(render, &shares, &agreements),
+            missed: missed(render, &shares),
             against_bootstrap: against_bootstrap(render, &shares),
             block_ratios,
         }
@@ -164,6 +170,15 @@ impl Findings {
                 self.disagreements.len(),
                 worst.class,
                 worst.against
+            ));
+        }
+        if let Some(worst) = self.missed.iter().max_by(|a, b| a.share.total_cmp(&b.share)) {
+            warnings.push(format!(
+                "{:.0} % of the groups have never been in {}, where the others find {:.2} % of the light: it is hard to \
+                 get there",
+                100.0 * worst.against,
+                worst.class,
+                100.0 * worst.share
             ));
         }
         if let Some(worst) = worst(&self.against_bootstrap) {
@@ -302,10 +317,10 @@ impl Shares {
     }
 }
 
-/// Classes in which groups disagree, and notable ones that some group has never been in.
+/// Classes in which groups disagree more than chance lets them.
 fn disagreements(render: &ChainRender, shares: &Shares, agreements: &[(usize, Agreement)]) -> Vec<ClassFinding> {
     let judged: Vec<Agreement> = agreements.iter().map(|(_, agreement)| *agreement).collect();
-    let mut findings: Vec<ClassFinding> = judge(&judged, ALPHA)
+    judge(&judged, ALPHA)
         .into_iter()
         .map(|d| {
             let class = agreements[d.statistic].0;
@@ -316,20 +331,21 @@ fn disagreements(render: &ChainRender, shares: &Shares, agreements: &[(usize, Ag
                 p: d.p,
             }
         })
-        .collect();
+        .collect()
+}
+
+/// Notable classes that some groups have never been in, though all others often were.
+fn missed(render: &ChainRender, shares: &Shares) -> Vec<ClassFinding> {
+    let mut findings = Vec::new();
     for class in 0..VISIT_CLASSES {
         let share = shares.mean(class);
         let expected = share * shares.batch_visits * BATCHES as f64;
         let missed = shares.of_group(class).iter().filter(|&&share| share == 0.0).count();
-        if missed > 0 && share >= NOTABLE_SHARE && expected >= LEAST_VISITS {
+        if missed > 0 && share >= NOTABLE_SHARE && expected >= MISSED_VISITS {
             findings.push(ClassFinding {
-                class: format!(
-                    "{} (missed by {missed} of {} groups)",
-                    render.class_name(class),
-                    shares.groups
-                ),
+                class: render.class_name(class),
                 share,
-                against: f64::INFINITY,
+                against: missed as f64 / shares.groups as f64,
                 p: 0.0,
             });
         }

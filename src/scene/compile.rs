@@ -11,7 +11,7 @@ use crate::material::MaterialTable;
 use std::f32::consts::PI;
 
 /// A scene as rendering sees it: tables only, never written to.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Scene {
     /// Shapes and the tree over them.
     pub geometry: Geometry,

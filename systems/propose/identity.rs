@@ -15,7 +15,7 @@ use crate::path::{
     ChainTable, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth, ProposedPrimaryTable,
     VertexCoordinates,
 };
-use crate::plan::{MovesVertices, Mutation, Registered, StateSpace, SystemPlan};
+use crate::plan::{MovesVertices, Mutation, Registered, StateSpace, Support, SystemPlan};
 use crate::sampling::StreamKey;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::Res;
@@ -46,6 +46,10 @@ impl Mutation for Identity {
 
     fn depth_first(&self) -> Option<Box<dyn MovesVertices>> {
         Some(Box::new(Unmoved))
+    }
+
+    fn support(&self) -> Option<Support> {
+        Some(Support::State)
     }
 }
 

@@ -19,7 +19,7 @@ use crate::chain::{ChosenMutation, MutationList};
 use crate::path::{
     ChainTable, DrawList, FilmCoordinates, PathLength, ProposedDepth, ProposedPrimaryTable, VertexCoordinates,
 };
-use crate::plan::{MovesVertices, Mutation, Registered, StateSpace, SystemPlan};
+use crate::plan::{MovesVertices, Mutation, Registered, StateSpace, Support, SystemPlan};
 use crate::sampling::StreamKey;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::Res;
@@ -60,6 +60,10 @@ impl Mutation for LargeStep {
 
     fn depth_first(&self) -> Option<Box<dyn MovesVertices>> {
         Some(Box::new(Afresh))
+    }
+
+    fn support(&self) -> Option<Support> {
+        Some(Support::Space)
     }
 }
 

@@ -7,6 +7,7 @@ mod key_chains;
 pub mod large_step;
 pub mod proposal;
 pub mod small_step;
+mod small_support;
 mod start_camera_paths;
 
 pub use assign_pixels::assign_pixels;
@@ -15,6 +16,7 @@ pub use identity::{Identity, draw_identities, propose_identities};
 pub use key_chains::key_chains;
 pub use large_step::{LargeStep, draw_large_steps, propose_large_steps};
 pub use small_step::{SmallStep, draw_small_steps, propose_small_steps};
+pub use small_support::{draw_small_supports, propose_small_supports, weigh_small_supports};
 pub use start_camera_paths::start_camera_paths;
 
 use crate::plan::Registry;

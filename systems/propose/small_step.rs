@@ -12,7 +12,7 @@
 //! the product over the coordinates that both paths have.
 
 use super::super::chains::{Keys, MutationLists};
-use super::super::list::{DRAW_SMALL_STEPS, PROPOSE_SMALL_STEPS};
+use super::super::list::*;
 use super::super::tile::{Queues, TilePlace};
 use super::super::trace::draws::{CoordinatesMut, CurrentCoordinates};
 use super::proposal::Proposals;
@@ -21,7 +21,7 @@ use crate::path::{
     ChainTable, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth, ProposedPrimaryTable,
     VertexCoordinates,
 };
-use crate::plan::{MovesVertices, Mutation, Registered, StateSpace, SystemPlan};
+use crate::plan::{MovesVertices, Mutation, Region, Registered, StateSpace, Support, SystemPlan};
 use crate::sampling::StreamKey;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::Res;
@@ -86,6 +86,19 @@ impl Mutation for SmallStep {
 
     fn depth_first(&self) -> Option<Box<dyn MovesVertices>> {
         Some(Box::new(Nearby(self.kernel())))
+    }
+
+    fn support(&self) -> Option<Support> {
+        Some(Support::Region(Region {
+            draw: vec![
+                SystemPlan::new(PROPOSE_SMALL_SUPPORTS, "any start that a small step can reach"),
+                SystemPlan::new(DRAW_SMALL_SUPPORTS, "and any way on"),
+            ],
+            weigh: vec![SystemPlan::new(
+                WEIGH_SMALL_SUPPORTS,
+                "1 over the length that each shared coordinate can reach",
+            )],
+        }))
     }
 }
 

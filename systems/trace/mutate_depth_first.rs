@@ -156,6 +156,9 @@ pub fn mutate_depth_first(
         if !proposal.target.is_finite() {
             counters.note_non_finite(global, place.step);
         }
+        if number == mutations.independent() {
+            statistics.independent.add(f64::from(proposal.target), group.unit);
+        }
         let (mut there, mut back) = (0.0, 0.0);
         if mutations.is_selective() {
             there += libm::log(mutations.probability(number, left));

@@ -1,0 +1,170 @@
+//! Verdicts: all tests of a check share one significance.
+
+use super::family::Family;
+use super::report::{TestKind, TestOutcome};
+use super::sheet::{Sheet, Sums};
+use super::tally::{Mean, Tally};
+use crate::stats::normal::two_sided_p;
+use crate::stats::z_test::{smallest_visible_bias, z_threshold};
+
+/// Equal values that a test must be worth to be judged: below, means are no normal variables.
+const LEAST_EFFECTIVE: f64 = 100.0;
+/// The probability with which the smallest visible bias is found.
+const POWER: f64 = 0.95;
+
+/// Sums of one run, and what they are sums of.
+pub(super) struct Judged<'a> {
+    pub(super) run: &'a str,
+    pub(super) families: &'a [Family],
+    pub(super) sums: &'a Sums,
+}
+
+/// A test before its verdict.
+struct Candidate {
+    kind: TestKind,
+    run: usize,
+    steps: u64,
+    name: String,
+    mean: Mean,
+    beside: f64,
+    /// The replica that deviates most in the direction of the mean.
+    extreme: u32,
+}
+
+/// A test with the run that it is of and the replica that shows it best.
+pub(super) struct Verdict {
+    pub(super) outcome: TestOutcome,
+    pub(super) run: usize,
+    pub(super) chain: u32,
+}
+
+/// Judges all tests of all runs, and counts those that cannot be judged.
+pub(super) fn judge(runs: &[Judged<'_>], significance: f64) -> (Vec<Verdict>, usize) {
+    let mut candidates = Vec::new();
+    let mut untested = 0;
+    for (number, run) in runs.iter().enumerate() {
+        for sheet in &run.sums.sheets {
+            let mut sheet = Reader {
+                sheet,
+                run: number,
+                family: &run.families[sheet.family],
+                replicas: run.sums.replicas,
+                candidates: &mut candidates,
+                untested: &mut untested,
+            };
+            if sheet.sheet.kind == TestKind::Flow {
+                sheet.read_pairs();
+            } else {
+                sheet.read_cells();
+            }
+        }
+    }
+    let tests = candidates.len();
+    let verdict = |candidate: Candidate| {
+        let mean = candidate.mean;
+        let z = mean.z();
+        let outcome = TestOutcome {
+            kind: candidate.kind,
+            run: runs[candidate.run].run.to_owned(),
+            steps: candidate.steps,
+            name: candidate.name,
+            mean: mean.mean,
+            error: mean.error,
+            z,
+            p: two_sided_p(z),
+            bias: mean.mean / candidate.beside,
+            sees: smallest_visible_bias(mean.error, significance, tests, POWER) / candidate.beside,
+            passed: z.abs() <= z_threshold(significance, tests),
+            witness: None,
+        };
+        Verdict {
+            outcome,
+            run: candidate.run,
+            chain: candidate.extreme,
+        }
+    };
+    (candidates.into_iter().map(verdict).collect(), untested)
+}
+
+/// Reads the candidates off a sheet.
+struct Reader<'a> {
+    sheet: &'a Sheet,
+    run: usize,
+    family: &'a Family,
+    replicas: u64,
+    candidates: &'a mut Vec<Candidate>,
+    untested: &'a mut usize,
+}
+
+impl Reader<'_> {
+    fn read_cells(&mut self) {
+        for (cell, row) in self.sheet.rows.iter().enumerate() {
+            let beside = self.sheet.beside[cell] / self.replicas.max(1) as f64;
+            let mean = row.mean(self.replicas);
+            if beside == 0.0 && mean.size == 0.0 {
+                continue;
+            }
+            // Where nothing changed, nothing is out of balance.
+            if mean.effective < LEAST_EFFECTIVE && mean.size > 0.0 {
+                *self.untested += 1;
+                continue;
+            }
+            self.push(
+                row,
+                mean,
+                self.family.cells[cell].clone(),
+                beside.max(f64::MIN_POSITIVE),
+            );
+        }
+    }
+
+    /// Pairs between which too little flows are judged as one. All pairs together say whether as much goes up the family's
+    /// order as down: where cells are lengths or octaves, the test that sees most.
+    fn read_pairs(&mut self) {
+        let mut rare = Tally::default();
+        let mut all = Tally::default();
+        self.sheet.rows.iter().for_each(|row| all.merge(row));
+        let mean = all.mean(self.replicas);
+        if mean.effective >= LEAST_EFFECTIVE {
+            let (first, last) = (self.family.cells.first(), self.family.cells.last());
+            let name = |cell: Option<&String>| cell.cloned().unwrap_or_default();
+            let name = format!("{} ... {}, up and down", name(first), name(last));
+            self.push(&all, mean, name, mean.size);
+        }
+        let mut rare_pairs = 0;
+        for (pair, row) in self.sheet.rows.iter().enumerate() {
+            let mean = row.mean(self.replicas);
+            if mean.size == 0.0 {
+                continue;
+            }
+            if mean.effective < LEAST_EFFECTIVE {
+                rare.merge(row);
+                rare_pairs += 1;
+                continue;
+            }
+            let (from, to) = (pair / self.sheet.cells, pair % self.sheet.cells);
+            let name = format!("{} <-> {}", self.family.cells[from], self.family.cells[to]);
+            self.push(row, mean, name, mean.size);
+        }
+        let mean = rare.mean(self.replicas);
+        if mean.effective >= LEAST_EFFECTIVE {
+            let name = format!("{rare_pairs} rarer pairs like {}, together", self.family.cells[0]);
+            self.push(&rare, mean, name, mean.size);
+        } else if rare_pairs > 0 {
+            *self.untested += 1;
+        }
+    }
+
+    fn push(&mut self, row: &Tally, mean: Mean, name: String, beside: f64) {
+        let extreme = if mean.mean > 0.0 { row.most } else { row.least };
+        self.candidates.push(Candidate {
+            kind: self.sheet.kind,
+            run: self.run,
+            steps: self.sheet.steps,
+            name,
+            mean,
+            beside,
+            extreme: extreme.chain,
+        });
+    }
+}

@@ -1,0 +1,7 @@
+//! The harness that can refute a mutation: what is right passes, and every planted mistake is found.
+
+mod command;
+mod example;
+mod steps;
+mod twins;
+mod verdicts;
