@@ -9,6 +9,9 @@ use crate::stats::z_test::{smallest_visible_bias, z_threshold};
 
 /// Equal values that a test must be worth to be judged: below, means are no normal variables.
 const LEAST_EFFECTIVE: f64 = 100.0;
+/// How many times the largest value the spread of a sum must be for its test to be judged: where a few values could be most of
+/// the sum, samples without them look as if nothing could be.
+const LEAST_SPREAD: f64 = 4.0;
 /// The probability with which the smallest visible bias is found.
 const POWER: f64 = 0.95;
 
@@ -49,6 +52,7 @@ pub(super) fn judge(runs: &[Judged<'_>], significance: f64) -> (Vec<Verdict>, us
                 run: number,
                 family: &run.families[sheet.family],
                 replicas: run.sums.replicas,
+                heaviest: run.sums.heaviest,
                 candidates: &mut candidates,
                 untested: &mut untested,
             };
@@ -92,6 +96,7 @@ struct Reader<'a> {
     run: usize,
     family: &'a Family,
     replicas: u64,
+    heaviest: f64,
     candidates: &'a mut Vec<Candidate>,
     untested: &'a mut usize,
 }
@@ -105,7 +110,7 @@ impl Reader<'_> {
                 continue;
             }
             // Where nothing changed, nothing is out of balance.
-            if mean.effective < LEAST_EFFECTIVE && mean.size > 0.0 {
+            if mean.size > 0.0 && !self.can_judge(row, &mean) {
                 *self.untested += 1;
                 continue;
             }
@@ -124,8 +129,8 @@ impl Reader<'_> {
         let mut rare = Tally::default();
         let mut all = Tally::default();
         self.sheet.rows.iter().for_each(|row| all.merge(row));
-        let mean = all.mean(self.replicas);
-        if mean.effective >= LEAST_EFFECTIVE {
+        let mean = self.flow(&all);
+        if self.can_judge(&all, &mean) {
             let (first, last) = (self.family.cells.first(), self.family.cells.last());
             let name = |cell: Option<&String>| cell.cloned().unwrap_or_default();
             let name = format!("{} ... {}, up and down", name(first), name(last));
@@ -133,11 +138,11 @@ impl Reader<'_> {
         }
         let mut rare_pairs = 0;
         for (pair, row) in self.sheet.rows.iter().enumerate() {
-            let mean = row.mean(self.replicas);
+            let mean = self.flow(row);
             if mean.size == 0.0 {
                 continue;
             }
-            if mean.effective < LEAST_EFFECTIVE {
+            if !self.can_judge(row, &mean) {
                 rare.merge(row);
                 rare_pairs += 1;
                 continue;
@@ -146,13 +151,34 @@ impl Reader<'_> {
             let name = format!("{} <-> {}", self.family.cells[from], self.family.cells[to]);
             self.push(row, mean, name, mean.size);
         }
-        let mean = rare.mean(self.replicas);
-        if mean.effective >= LEAST_EFFECTIVE {
+        let mean = self.flow(&rare);
+        if self.can_judge(&rare, &mean) {
             let name = format!("{rare_pairs} rarer pairs like {}, together", self.family.cells[0]);
             self.push(&rare, mean, name, mean.size);
         } else if rare_pairs > 0 {
             *self.untested += 1;
         }
+    }
+
+    /// The mean of a flow. There and back are alike when nothing is wrong, so it is not skewed, whatever the sample is.
+    fn flow(&self, row: &Tally) -> Mean {
+        Mean {
+            skewness: 0.0,
+            ..row.mean(self.replicas)
+        }
+    }
+
+    /// Whether the mean can be taken as normal. The last decision enters by expectation, which bounds values by what they
+    /// are likely to be; those before it are taken, and may carry the heaviest replica to where it seldom gets.
+    fn can_judge(&self, row: &Tally, mean: &Mean) -> bool {
+        let seen = row.most.value.max(-row.least.value);
+        let bound = if self.sheet.kind == TestKind::Target && self.sheet.steps > 1 {
+            seen.max(self.heaviest)
+        } else {
+            seen
+        };
+        let spread = mean.error * self.replicas as f64;
+        mean.effective >= LEAST_EFFECTIVE && (spread == 0.0 || spread >= LEAST_SPREAD * bound)
     }
 
     fn push(&mut self, row: &Tally, mean: Mean, name: String, beside: f64) {

@@ -5,7 +5,8 @@
 //! replica is a chain of its own, so all are independent, and each test function is judged by a z-test:
 //!
 //! - **target**: E[w h(x_K)] = E[w h(x₀)] = ∫ f h. The difference is taken replica by replica, and over the last decision
-//!   by expectation; once more with the decision as it was taken.
+//!   by expectation.
+//! - **decided**: given a state and its proposal, whether that is taken is a coin of probability a.
 //! - **flow**: E[w a 1_A(x₀) 1_B(y)] = E[w a 1_B(x₀) 1_A(y)]: as much goes from A to B as comes back, since every mutation
 //!   satisfies detailed balance by itself.
 //! - **density**: proposals weighted by 1/T spread over the mutation's [`Support`](crate::plan::Support) as known draws do.

@@ -3,7 +3,8 @@
 use super::CheckError;
 use super::family::{Cells, Family, Side, families};
 use crate::chain::{
-    Acceptance, BootstrapWeight, ChosenMutation, CommonDensity, ForwardDensity, ProposedTarget, SupportDensity, Target,
+    Acceptance, BootstrapWeight, ChosenMutation, CommonDensity, ForwardDensity, ProposedTarget, Rejections,
+    SupportDensity, Target,
 };
 use crate::film::{BlockGrid, GroupFilm};
 use crate::path::ChainTable;
@@ -136,6 +137,12 @@ impl Replicas<'_> {
     /// The acceptances of the last step.
     pub(super) fn acceptances(&mut self) -> Vec<f64> {
         self.column(|world, values| world.read::<Acceptance, ChainTable>(values))
+    }
+
+    /// Whether the last step's proposals were taken.
+    pub(super) fn accepted(&mut self) -> Vec<bool> {
+        let rejections = self.column::<u32>(|world, values| world.read::<Rejections, ChainTable>(values));
+        rejections.into_iter().map(|run| run == 0).collect()
     }
 
     /// The mutations that the last step tried.

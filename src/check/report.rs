@@ -9,7 +9,7 @@ use std::fmt;
 pub enum TestKind {
     /// Weighted states stay distributed as the target; the last decision by expectation.
     Target,
-    /// The same with the last decision as it was taken.
+    /// Decisions are taken as often as acceptances say.
     Decided,
     /// As much goes from one cell to another as comes back.
     Flow,
@@ -285,24 +285,35 @@ impl fmt::Display for Report {
 
 impl Report {
     fn write_kind(&self, f: &mut fmt::Formatter<'_>, kind: TestKind) -> fmt::Result {
-        let mut sees: Vec<f64> = self.of_kind(kind).map(|test| test.sees).collect();
-        if sees.is_empty() {
+        let count = self.of_kind(kind).count();
+        if count == 0 {
             return Ok(());
         }
+        // Where nothing changes, any change would show.
+        let mut sees: Vec<f64> = self
+            .of_kind(kind)
+            .map(|test| test.sees)
+            .filter(|sees| *sees > 0.0)
+            .collect();
         sees.sort_unstable_by(f64::total_cmp);
         let mut failed: Vec<&TestOutcome> = self.of_kind(kind).filter(|test| !test.passed).collect();
         failed.sort_unstable_by(|a, b| b.z.abs().total_cmp(&a.z.abs()));
         let largest = self.of_kind(kind).map(|test| test.z.abs()).fold(0.0, f64::max);
-        writeln!(
+        write!(
             f,
-            "  {:<8} {:>5} tests, {:>4} failed, largest |z| {:.1}; sees biases of {:.2} % at best, {:.2} % in half of them",
+            "  {:<8} {count:>5} tests, {:>4} failed, largest |z| {largest:.1}; ",
             kind.name(),
-            sees.len(),
             failed.len(),
-            largest,
-            100.0 * sees[0],
-            100.0 * sees[sees.len() / 2]
         )?;
+        match (sees.first(), sees.get(sees.len() / 2)) {
+            (Some(best), Some(half)) => writeln!(
+                f,
+                "sees biases of {:.2} % at best, {:.2} % in half of them",
+                100.0 * best,
+                100.0 * half
+            )?,
+            _ => writeln!(f, "nothing changed, and any change would show")?,
+        }
         for test in failed.iter().take(SHOWN) {
             writeln!(f, "    {test}")?;
             if let Some(witness) = &test.witness {

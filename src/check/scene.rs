@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 /// A corner of a diffuse room with a glass sphere, a mirror of metal and two lights off its middle: paths of several lengths
 /// and signatures, diffuse and specular. It is open to the front and above, so that paths end at every depth.
+/// The lights are large and not much brighter than what they light: replicas that see them weigh little more than others.
 const TEXT: &str = r#"(
     version: 1,
     settings: (max_depth: 7),
@@ -25,8 +26,8 @@ const TEXT: &str = r#"(
         (name: "left", shape: Quad(corner: (-2, 0, 2), edge_u: (0, 0, -4), edge_v: (0, 3, 0)), material: "red"),
         (name: "mirror", shape: Quad(corner: (2, 0.2, -1.5), edge_u: (0, 0, 2), edge_v: (0, 1.5, 0)), material: "metal"),
         (name: "ball", shape: Sphere(center: (0.4, 0.7, 0.4), radius: 0.6), material: "glass"),
-        (name: "lamp", shape: Sphere(center: (-0.9, 2.1, 0.2), radius: 0.35), material: "lamp", emission: (6, 5, 4)),
-        (name: "small lamp", shape: Sphere(center: (1.3, 0.25, -0.9), radius: 0.2), material: "lamp", emission: (3, 4, 8)),
+        (name: "lamp", shape: Sphere(center: (-0.9, 2.3, 0.2), radius: 0.6), material: "lamp", emission: (2, 1.7, 1.3)),
+        (name: "small lamp", shape: Sphere(center: (1.3, 0.4, -0.9), radius: 0.35), material: "lamp", emission: (1, 1.3, 2.7)),
     ],
 )"#;
 

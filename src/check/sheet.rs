@@ -91,6 +91,8 @@ pub(super) struct Sums {
     pub(super) replicas: u64,
     /// Those with light.
     pub(super) lit: u64,
+    /// The largest weight of a replica.
+    pub(super) heaviest: f64,
     /// First proposals of the mutation from states with light.
     pub(super) proposed: u64,
     /// Those that could not have been taken.
@@ -110,6 +112,7 @@ impl Sums {
             sum.sheets.iter_mut().zip(&chunk.sheets).for_each(|(a, b)| a.merge(b));
             sum.replicas += chunk.replicas;
             sum.lit += chunk.lit;
+            sum.heaviest = sum.heaviest.max(chunk.heaviest);
             sum.proposed += chunk.proposed;
             sum.failed += chunk.failed;
             sum.strays += chunk.strays;

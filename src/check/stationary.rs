@@ -35,6 +35,7 @@ fn run_batch(replicas: &mut Replicas<'_>, first: u32, steps: &[u64], sums: &mut 
     let weights = replicas.draw(first, super::replicas::BATCH);
     replicas.take();
     sums.replicas += weights.len() as u64;
+    sums.heaviest = weights.iter().copied().fold(sums.heaviest, f64::max);
     sums.lit += weights.iter().filter(|&&w| w > 0.0).count() as u64;
     let (mut start, mut before, mut proposed) = (Cells::default(), Cells::default(), Cells::default());
     replicas.look(&mut start, Side::Current);
@@ -48,7 +49,7 @@ fn run_batch(replicas: &mut Replicas<'_>, first: u32, steps: &[u64], sums: &mut 
         if !looked_at {
             continue;
         }
-        let acceptances = replicas.acceptances();
+        let (acceptances, accepted) = (replicas.acceptances(), replicas.accepted());
         replicas.look(&mut proposed, Side::Proposed);
         if step == 1 {
             let chosen = replicas.chosen();
@@ -69,6 +70,7 @@ fn run_batch(replicas: &mut Replicas<'_>, first: u32, steps: &[u64], sums: &mut 
                 chain: first + chain as u32,
                 weight: weights[chain],
                 acceptance: acceptances[chain],
+                accepted: accepted[chain],
                 start: start[chain],
                 before: before[chain],
                 proposed: proposed[chain],
@@ -77,19 +79,8 @@ fn run_batch(replicas: &mut Replicas<'_>, first: u32, steps: &[u64], sums: &mut 
             match sheet.kind {
                 TestKind::Target => lit.for_each(|replica| replica.add_target(sheet)),
                 TestKind::Flow => lit.for_each(|replica| replica.add_flow(sheet)),
+                TestKind::Decided => lit.for_each(|replica| replica.add_decision(sheet)),
                 _ => {}
-            }
-        }
-    }
-    // The last decision once more, as it was taken.
-    replicas.look(&mut proposed, Side::Current);
-    for sheet in sums.sheets.iter_mut().filter(|sheet| sheet.kind == TestKind::Decided) {
-        let (start, end) = (start.of(sheet.family), proposed.of(sheet.family));
-        for (chain, &weight) in weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
-            sheet.add_beside(start[chain], weight);
-            if start[chain] != end[chain] {
-                sheet.add(start[chain], -weight, first + chain as u32);
-                sheet.add(end[chain], weight, first + chain as u32);
             }
         }
     }
@@ -101,6 +92,8 @@ struct Replica {
     weight: f64,
     /// a of the last step.
     acceptance: f64,
+    /// Whether its proposal was taken.
+    accepted: bool,
     start: Cell,
     /// Before the last step.
     before: Cell,
@@ -135,5 +128,13 @@ impl Replica {
     /// Adds w a from the start's cell to the proposal's.
     fn add_flow(&self, sheet: &mut Sheet) {
         sheet.add_flow(self.start, self.proposed, self.weight * self.acceptance, self.chain);
+    }
+
+    /// Adds whether the proposal was taken, less the probability of that. Given both states it is a toss of a coin, so no
+    /// weight is needed.
+    fn add_decision(&self, sheet: &mut Sheet) {
+        let taken = if self.accepted { 1.0 } else { 0.0 };
+        sheet.add(self.proposed, taken - self.acceptance, self.chain);
+        sheet.add_beside(self.proposed, self.acceptance);
     }
 }

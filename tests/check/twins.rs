@@ -3,8 +3,8 @@
 use super::steps::{Move, Reached, Steps, region, spec, systems};
 use bevy_ecs::schedule::IntoScheduleConfigs;
 use bevy_ecs::system::Res;
-use chainlight::chain::{Class, ForwardDensity, Kernel, MutationList, StateClass};
-use chainlight::path::{ChainTable, FilmCoordinates, VertexCoordinates, roulette};
+use chainlight::chain::{Class, ForwardDensity, Kernel, MutationList, ReverseDensity, StateClass};
+use chainlight::path::{ChainTable, FilmCoordinates, PrimaryDepth, ProposedDepth, VertexCoordinates, roulette};
 use chainlight::plan::{InPlan, Mutation, Place, Registered, Stage, StateSpace, Support, SystemPlan, SystemSpec};
 use chainlight::sampling::{Purpose, StreamKey};
 use chainlight::systems::chains::{MutationLists, Mutations};
@@ -12,7 +12,7 @@ use chainlight::table::{Read, Rows, Write};
 use serde::{Deserialize, Serialize};
 
 macro_rules! twin {
-    ($(#[$doc:meta])* $name:ident, $text:literal, $support:expr) => {
+    ($(#[$doc:meta])* $name:ident, $text:literal, $support:expr $(, $more:expr)?) => {
         $(#[$doc])*
         #[derive(Clone, Debug, Default, Serialize, Deserialize)]
         pub struct $name {
@@ -27,7 +27,10 @@ macro_rules! twin {
                 self.weight
             }
             fn systems(&self) -> Vec<SystemPlan> {
-                systems::<Self>()
+                let mut systems = systems::<Self>();
+                let more: Vec<SystemPlan> = vec![$($more)?];
+                systems.extend(more);
+                systems
             }
             fn support(&self) -> Option<Support> {
                 $support
@@ -77,8 +80,30 @@ twin!(
     /// A small step whose density is 5 % too large where the path grows.
     Growing,
     "growing",
-    None
+    None,
+    SystemPlan::new(
+        spec!(shrink_back::<Growing>, Place::Stage(Stage::Evaluate)),
+        "a twin"
+    )
 );
+
+/// Makes the density of the way back as wrong as it would be there, where the path shrinks.
+fn shrink_back<M: Mutation>(
+    mutation: Res<Registered<M>>,
+    lists: Res<MutationLists>,
+    list: Read<MutationList, ChainTable>,
+    current_depths: Read<PrimaryDepth, ChainTable>,
+    depths: Read<ProposedDepth, ChainTable>,
+    mut reverse: Write<ReverseDensity, ChainTable>,
+) {
+    let (list, current_depths, depths, reverse) = (list.rows(), current_depths.rows(), depths.rows(), reverse.rows());
+    for entry in lists.entries(mutation.number) {
+        let chain = list.at(entry) as usize;
+        if depths.at(chain) < current_depths.at(chain) {
+            reverse.put(chain, reverse.at(chain) + libm::log(1.05));
+        }
+    }
+}
 
 impl Steps for Growing {
     fn kernel(&self) -> Kernel {
@@ -215,17 +240,17 @@ selective!(
 );
 
 selective!(
-    /// The same, whose density leaves out how likely it was to be chosen.
+    /// The same, whose density counts how likely it was to be chosen the wrong way round.
     Biased,
     "biased",
     vec![SystemPlan::new(
-        spec!(leave_out_choices::<Biased>, Place::Stage(Stage::Evaluate)),
+        spec!(turn_choices::<Biased>, Place::Stage(Stage::Evaluate)),
         "a twin",
     )]
 );
 
-/// Takes away what the core will add to the density of the way there.
-fn leave_out_choices<M: Mutation>(
+/// Takes away twice what the core will add to the density of the way there.
+fn turn_choices<M: Mutation>(
     mutation: Res<Registered<M>>,
     mutations: Res<Mutations>,
     lists: Res<MutationLists>,
@@ -237,6 +262,6 @@ fn leave_out_choices<M: Mutation>(
     for entry in lists.entries(mutation.number) {
         let chain = list.at(entry) as usize;
         let probability = mutations.probability(mutation.number, StateClass(classes.at(chain)));
-        forward.put(chain, forward.at(chain) - libm::log(probability));
+        forward.put(chain, forward.at(chain) - 2.0 * libm::log(probability));
     }
 }
