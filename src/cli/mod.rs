@@ -9,6 +9,8 @@ mod output;
 pub mod plan;
 pub mod profile;
 pub mod render;
+pub mod replay;
+mod replay_text;
 mod report;
 mod target;
 
@@ -31,6 +33,8 @@ enum Command {
     Plan(plan::PlanArgs),
     /// Render for a while and show what every stage costs.
     Profile(profile::ProfileArgs),
+    /// Show one step of one chain, or one sample of one pixel, as a render took it.
+    Replay(replay::ReplayArgs),
     /// Compare a picture with a reference of the same size.
     Compare(compare::CompareArgs),
 }
@@ -44,6 +48,7 @@ pub fn run(cli: &Cli) -> miette::Result<ExitCode> {
         Command::Render(args) => render::run(args),
         Command::Plan(args) => plan::run(args).map(|()| ExitCode::SUCCESS),
         Command::Profile(args) => profile::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Replay(args) => replay::run(args),
         Command::Compare(args) => compare::run(args).map(|()| ExitCode::SUCCESS),
     }
 }

@@ -6,6 +6,7 @@ mod chains;
 mod deal;
 mod driver;
 mod group;
+mod lone_chain;
 mod rendering;
 mod tile_world;
 
@@ -14,6 +15,7 @@ pub use chain_run::ChainRun;
 pub use chains::ChainRender;
 pub use driver::{Budget, Outcome, Progress, Stop, drive};
 pub use group::Start;
+pub use lone_chain::{LoneChain, LoneStart};
 pub use rendering::Rendering;
 pub use tile_world::TileWorld;
 
@@ -51,6 +53,23 @@ pub enum RenderError {
     NoChains {
         /// The technique.
         technique: &'static str,
+    },
+    /// There is no such chain.
+    #[error("there is no chain {chain}: the chains of {technique} are 0 to {last}")]
+    #[diagnostic(help("{}", if *.samples_pixels {
+        "each pixel is a chain, row by row from the top left: y * width + x"
+    } else {
+        "groups follow each other: chain = group * chains of a group + number in the group"
+    }))]
+    NoSuchChain {
+        /// The number that was asked for.
+        chain: u32,
+        /// The technique.
+        technique: &'static str,
+        /// The last chain there is.
+        last: u32,
+        /// Whether each pixel is a chain.
+        samples_pixels: bool,
     },
     /// Somebody stopped it before the first step.
     #[error("interrupted before the first step")]
