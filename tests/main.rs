@@ -9,6 +9,7 @@ mod command_line;
 mod geometry;
 mod physics;
 mod rendering;
+mod replay;
 mod samplers;
 mod scene_fuzz;
 mod support;

@@ -6,8 +6,8 @@ use super::state::{
     Classes, Coordinates, FilmStart, SplatAt, State, classes, column_and_row, coordinates, film_start, splats,
 };
 use crate::chain::{
-    Acceptance, Booking, ChosenMutation, CommonDensity, ForwardDensity, KeyChain, ProposedClass, ProposedTarget, Reason,
-    ReverseDensity, StateClass, metropolis,
+    Acceptance, Booking, ChosenMutation, CommonDensity, ForwardDensity, KeyChain, ProposedClass, ProposedTarget,
+    Reason, ReverseDensity, StateClass, metropolis,
 };
 use crate::color::Rgb;
 use crate::path::*;
