@@ -7,6 +7,7 @@
 mod broken_scenes;
 mod command_line;
 mod geometry;
+mod histogram;
 mod physics;
 mod rendering;
 mod replay;
