@@ -231,6 +231,53 @@ pub struct GroupPlace {
     pub group: u32,
     /// Global number of the group's first chain.
     pub first_chain: u32,
+    /// The power of two that weights of independent proposals are added up in units of: near the group's b.
+    pub unit: f64,
+}
+
+/// The sum of weights f(y)/T(y) of independent proposals, in fixed point, so that it does not depend on any order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WeightTally {
+    /// In steps of 2⁻⁶⁰ units.
+    pub sum: i128,
+    /// How many were added, those of no weight included.
+    pub count: u64,
+}
+
+/// Steps of a [`WeightTally`] in a unit.
+const WEIGHT_STEPS: f64 = (1_u64 << 60) as f64;
+
+impl WeightTally {
+    /// Adds one weight. One that is not finite counts as none.
+    #[inline]
+    pub fn add(&mut self, weight: f64, unit: f64) {
+        self.count += 1;
+        let steps = weight / unit * WEIGHT_STEPS;
+        if steps.is_finite() && steps > 0.0 {
+            self.sum = self.sum.saturating_add(steps as i128);
+        }
+    }
+
+    /// The mean of these weights and of `count` others whose mean is `mean`.
+    #[must_use]
+    pub fn mean_with(&self, mean: f64, count: u64, unit: f64) -> f64 {
+        let all = (self.count + count) as f64;
+        if all > 0.0 {
+            (self.sum as f64 / WEIGHT_STEPS * unit + mean * count as f64) / all
+        } else {
+            0.0
+        }
+    }
+}
+
+/// The power of two at or above `b`; 1 if there is none.
+#[must_use]
+pub fn weight_unit(b: f64) -> f64 {
+    if b.is_normal() && b > 0.0 {
+        libm::exp2(libm::ceil(libm::log2(b)))
+    } else {
+        1.0
+    }
 }
 
 impl GroupPlace {
@@ -249,6 +296,8 @@ pub struct ChainStatistics {
     pub proposals: Vec<ProposalCount>,
     /// By batch, then by class: steps after which a chain was there.
     pub visits: Vec<u64>,
+    /// What independent proposals weighed.
+    pub independent: WeightTally,
 }
 
 impl ChainStatistics {
@@ -258,6 +307,7 @@ impl ChainStatistics {
         Self {
             proposals: vec![ProposalCount::default(); mutations * StateClass::LENGTHS],
             visits: vec![0; BATCHES * VISIT_CLASSES],
+            independent: WeightTally::default(),
         }
     }
 
@@ -290,6 +340,8 @@ impl ChainStatistics {
         for (sum, more) in self.visits.iter_mut().zip(&other.visits) {
             *sum += more;
         }
+        self.independent.sum = self.independent.sum.saturating_add(other.independent.sum);
+        self.independent.count += other.independent.count;
     }
 
     /// What came of mutation `number` in states of a length.

@@ -80,6 +80,8 @@ list! {
     GATHER_CONTRIBUTION = EVALUATE, evaluate::gather_contribution;
     /// Writes the target and the splats of every proposal.
     EVALUATE_TARGETS = EVALUATE, evaluate::evaluate_targets;
+    /// Adds up what independent proposals tell of the normalization.
+    TALLY_INDEPENDENT = EVALUATE, evaluate::tally_independent, in_phases(Phases::STEP);
     /// Adds the choice of the mutation to the densities.
     WEIGH_CHOICES = EVALUATE, evaluate::weigh_choices, in_phases(Phases::STEP);
 

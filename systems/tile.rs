@@ -114,6 +114,12 @@ impl Depths {
         }
     }
 
+    /// The last depth that there can ever be.
+    #[must_use]
+    pub const fn most(&self) -> u32 {
+        self.most
+    }
+
     /// The last depth that every table has room for.
     #[must_use]
     pub const fn held(&self) -> u32 {

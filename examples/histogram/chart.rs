@@ -59,7 +59,11 @@ fn density(panel: &Panel<'_>, name: &str, sampled: &Sampled) -> Result<()> {
         .build_cartesian_2d(0.0..1.0, 0.0..1.05 * highest)
         .into_diagnostic()?;
     let mut mesh = chart.configure_mesh();
-    mesh.x_desc("x").y_desc("density").draw().into_diagnostic()?;
+    mesh.max_light_lines(1)
+        .x_desc("x")
+        .y_desc("density")
+        .draw()
+        .into_diagnostic()?;
     let edge = |bin: usize| bin as f64 / bins as f64;
     let bars = densities.iter().enumerate();
     let bars = bars.map(|(bin, &height)| Rectangle::new([(edge(bin), 0.0), (edge(bin + 1), height)], BARS.filled()));
@@ -79,7 +83,11 @@ fn bars(panel: &Panel<'_>, sampled: &Sampled) -> Result<()> {
         .build_cartesian_2d(-0.5..states as f64 - 0.5, 0.0..0.6)
         .into_diagnostic()?;
     let mut mesh = chart.configure_mesh();
-    mesh.x_desc("state").y_desc("share of steps").draw().into_diagnostic()?;
+    mesh.max_light_lines(1)
+        .x_desc("state")
+        .y_desc("share of steps")
+        .draw()
+        .into_diagnostic()?;
     for (state, (share, expected)) in sampled.shares().into_iter().zip(&sampled.expected).enumerate() {
         let (left, right) = (state as f64 - 0.3, state as f64 + 0.3);
         let bar = Rectangle::new([(left, 0.0), (right, share)], BARS.filled());

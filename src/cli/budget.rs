@@ -1,28 +1,91 @@
-//! `--spp`, `--time` and `--threads`: how long to render, and on how many threads.
+//! `--spp`, `--time`, `--target-error` and `--threads`: how long to render, and on how many threads.
 
-use crate::render::Budget;
+use crate::plan::Plan;
+use crate::render::{Budget, Goal};
 use clap::Args;
+use miette::{Result, miette};
 use std::time::Duration;
 
 /// How long to render.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct BudgetArgs {
-    /// Samples per pixel [default: 96]
-    #[arg(long, value_name = "N", conflicts_with = "time", value_parser = clap::value_parser!(u64).range(1..=u64::from(u32::MAX)))]
-    spp: Option<u64>,
+    /// Samples per pixel; for techniques with chains, mutations per pixel [default: 96]
+    #[arg(long, value_name = "N", conflicts_with = "time", value_parser = parse_spp)]
+    spp: Option<f64>,
     /// Seconds to render; the number of samples reached is recorded, and with it --spp gives the same bytes
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     time: Option<Duration>,
 }
 
 impl BudgetArgs {
-    /// The budget, `default` where none was given.
-    #[must_use]
-    pub fn or(self, default: Budget) -> Budget {
-        self.time
-            .map(Budget::Time)
-            .or(self.spp.map(Budget::Steps))
-            .unwrap_or(default)
+    /// The budget of a render of `plan` before a film of `pixels` pixels, `default` where none was given.
+    ///
+    /// # Errors
+    /// A broken number of samples where only whole ones can be taken.
+    pub fn of(self, plan: &Plan, pixels: u32, default: Default) -> Result<Budget> {
+        let given = match (self.spp, self.time) {
+            (Some(spp), _) => Default::Samples(spp),
+            (None, Some(time)) => Default::Time(time),
+            (None, None) => default,
+        };
+        match given {
+            Default::Time(time) => Ok(Budget::Time(time)),
+            Default::Samples(spp) => steps(plan, pixels, spp).map(Budget::Steps),
+            Default::Endless => Ok(Budget::Steps(u64::MAX)),
+        }
+    }
+}
+
+/// How long to render where nothing is asked for.
+#[derive(Clone, Copy, Debug)]
+pub enum Default {
+    /// So many samples, or mutations, per pixel.
+    Samples(f64),
+    /// So long.
+    Time(Duration),
+    /// Until something else ends it.
+    Endless,
+}
+
+/// Steps that take so many samples, or mutations, per pixel.
+fn steps(plan: &Plan, pixels: u32, spp: f64) -> Result<u64> {
+    if let Some(chains) = &plan.chains {
+        return Ok(chains.counts.steps_for(spp, pixels));
+    }
+    if spp.fract() != 0.0 {
+        return Err(miette!(
+            help = "only techniques with chains take parts of a mutation per pixel",
+            "{} takes whole samples per pixel, not {spp}",
+            plan.technique
+        ));
+    }
+    Ok(spp as u64)
+}
+
+/// Until which error to render.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct TargetArgs {
+    /// Stop once the picture's relative error over block means is below this with 95 % confidence, such as 0.01; --spp or
+    /// --time then is the most that is spent
+    #[arg(long, value_name = "E", value_parser = parse_error)]
+    target_error: Option<f64>,
+}
+
+impl TargetArgs {
+    /// The goal: this error, within the budget.
+    ///
+    /// # Errors
+    /// As [`BudgetArgs::of`].
+    pub fn within(self, budget: BudgetArgs, plan: &Plan, pixels: u32, default: Default) -> Result<Goal> {
+        let default = if self.target_error.is_some() {
+            Default::Endless
+        } else {
+            default
+        };
+        Ok(Goal {
+            budget: budget.of(plan, pixels, default)?,
+            target_error: self.target_error,
+        })
     }
 }
 
@@ -45,6 +108,21 @@ impl ThreadArgs {
             0 => std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
             threads => usize::from(threads),
         }
+    }
+}
+
+fn parse_spp(text: &str) -> Result<f64, String> {
+    let most = f64::from(u32::MAX);
+    match text.parse::<f64>() {
+        Ok(spp) if spp > 0.0 && spp <= most => Ok(spp),
+        _ => Err(format!("expected a number above 0 and up to {most}, such as 96")),
+    }
+}
+
+fn parse_error(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(error) if error > 0.0 && error < 1.0 => Ok(error),
+        _ => Err("expected a relative error above 0 and below 1, such as 0.01 for 1 %".to_owned()),
     }
 }
 
@@ -71,5 +149,15 @@ mod tests {
         for bad in ["0", "-1", "nan", "inf", "1e300", "soon", ""] {
             assert!(parse_seconds(bad).is_err(), "{bad}");
         }
+    }
+
+    #[test]
+    fn samples_and_errors_are_positive_numbers() {
+        assert_eq!(parse_spp("9.765625"), Ok(9.765625));
+        assert_eq!(parse_error("0.02"), Ok(0.02));
+        for bad in ["0", "-1", "nan", "inf", "1e300", "many", ""] {
+            assert!(parse_spp(bad).is_err() && parse_error(bad).is_err(), "{bad}");
+        }
+        assert!(parse_error("1").is_err());
     }
 }

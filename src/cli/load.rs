@@ -1,13 +1,15 @@
 //! What the commands that take a scene have in common: its arguments, and loading it.
 
+use super::chains::ChainArgs;
 use super::output::note;
-use crate::plan::{Plan, Technique, UnknownTechnique};
+use crate::plan::{Plan, PlanOptions, Registry, Technique, UnknownTechnique};
 use crate::scene::{
     FilterDescription, Scene, SceneOverrides, Step, description::MAX_DEPTH_LIMIT, description::MAX_FILM_PIXELS,
 };
 use crate::scene::{description::MAX_FILM_SIDE, flatten, read_scene};
 use clap::Args;
-use miette::Result;
+use miette::{Result, miette};
+use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -17,7 +19,7 @@ use std::time::{Duration, Instant};
 pub struct SceneArgs {
     /// The scene file: RON, or JSON by its extension
     pub scene: PathBuf,
-    /// How to estimate the picture: pt, pt-reference [default: the scene's, or pt]
+    /// How to estimate the picture: pt, pt-reference, pssmlt [default: the scene's, or pt]
     #[arg(long, value_name = "NAME")]
     pub technique: Option<Technique>,
     /// Film size in pixels instead of the scene's, such as 640x480
@@ -29,6 +31,34 @@ pub struct SceneArgs {
     /// Chains per tile instead of as many as fit the cache; the picture does not depend on it
     #[arg(long, value_name = "CHAINS", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub tile: Option<u32>,
+    #[command(flatten)]
+    pub mutations: MutationArgs,
+    #[command(flatten)]
+    pub chains: ChainArgs,
+}
+
+/// Settings of mutations.
+#[derive(Args, Clone, Debug, Default)]
+pub struct MutationArgs {
+    /// Settings of a mutation, such as small_step:weight=0.5,largest=0.1; a weight of 0 leaves it out
+    #[arg(long, value_name = "NAME:KEY=VALUE,...")]
+    pub mutation: Vec<String>,
+}
+
+impl MutationArgs {
+    /// The mutations of `registry` with these settings.
+    ///
+    /// # Errors
+    /// A name, a key or a value that does not fit.
+    pub fn apply(&self, registry: &Registry) -> Result<Registry> {
+        let mut registry = registry.clone();
+        for text in &self.mutation {
+            registry
+                .set(text)
+                .map_err(|error| miette!("--mutation {text}: {error}"))?;
+        }
+        Ok(registry)
+    }
 }
 
 /// A scene, ready to render, and how long that took.
@@ -46,12 +76,13 @@ pub struct Loaded {
 }
 
 impl SceneArgs {
-    /// Reads, compiles and plans. Warnings are printed to standard error.
+    /// Reads, compiles and plans, with the mutations of `registry`. Warnings are printed to standard error.
     ///
     /// # Errors
-    /// A file that is no valid scene, or a technique that there is not.
-    pub fn load(&self) -> Result<Loaded> {
+    /// A file that is no valid scene, a technique that there is not, or mutations that chains cannot run with.
+    pub fn load(&self, registry: &Registry) -> Result<Loaded> {
         let start = Instant::now();
+        let mutations = self.mutations.apply(registry)?;
         let source = read_scene(&self.scene)?;
         let flattened = flatten(&source)?;
         let named = source.description.settings.technique.as_deref();
@@ -76,7 +107,12 @@ impl SceneArgs {
         for warning in &warnings {
             note(&format!("warning: {warning}"));
         }
-        let plan = Plan::new(&scene, technique, self.tile);
+        let options = PlanOptions {
+            tile_size: self.tile,
+            chains: self.chains.settings(),
+            mutations,
+        };
+        let plan = Plan::with(&scene, technique, &options)?;
         Ok(Loaded {
             scene,
             plan,
@@ -100,7 +136,21 @@ pub fn settings(loaded: &Loaded) -> String {
         FilterDescription::Tent { radius } => format!("tent({radius})"),
         FilterDescription::Gaussian { radius, sigma } => format!("gaussian({radius}, {sigma})"),
     };
-    format!("size={width}x{height} max_depth={max_depth} filter={filter}")
+    let mut settings = format!("size={width}x{height} max_depth={max_depth} filter={filter}");
+    if let Some(chains) = &loaded.plan.chains {
+        let counts = chains.counts;
+        let samples = u64::from(counts.rounds) * u64::from(counts.chains);
+        // Writing to a String cannot fail.
+        let _ = write!(
+            settings,
+            " groups={} chains={} bootstrap={samples}",
+            counts.groups, counts.chains
+        );
+        for planned in &chains.mutations {
+            let _ = write!(settings, " {}={}", planned.mutation.name(), planned.mutation.settings());
+        }
+    }
+    settings
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {

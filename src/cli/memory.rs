@@ -11,7 +11,12 @@ const PICTURE_BYTES: u64 = 64;
 /// Memory that a render takes at its peak, beside the scene: film, picture, tree, and a tile's tables per thread.
 pub fn needed(plan: &Plan, pixels: u32, threads: usize) -> u64 {
     let picture = PICTURE_BYTES * u64::from(pixels);
-    let tables = plan.tile.most_bytes().saturating_mul(threads as u64);
+    // Chains keep a world for every tile, independent samples one for every thread.
+    let worlds = plan.chains.as_ref().map_or(threads as u64, |chains| {
+        let counts = chains.counts;
+        u64::from(counts.groups) * u64::from(counts.chains.div_ceil(plan.tile.size))
+    });
+    let tables = plan.tile.most_bytes().saturating_mul(worlds);
     plan.film_bytes
         .saturating_add(picture)
         .saturating_add(plan.tree_bytes)

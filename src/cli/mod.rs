@@ -1,7 +1,9 @@
 //! The program's commands, one file each.
 
 mod budget;
+mod chains;
 pub mod compare;
+mod findings;
 mod interrupt;
 mod load;
 mod memory;
@@ -14,6 +16,7 @@ mod replay_text;
 mod report;
 mod target;
 
+use crate::plan::Registry;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -39,16 +42,25 @@ enum Command {
     Compare(compare::CompareArgs),
 }
 
-/// Runs the command that the arguments name.
+/// Runs the command that the arguments name, with the mutations of this crate.
 ///
 /// # Errors
 /// Whatever the command cannot do, with what to do about it.
 pub fn run(cli: &Cli) -> miette::Result<ExitCode> {
+    run_with(cli, &crate::systems::propose::mutations())
+}
+
+/// Runs the command that the arguments name, with the mutations of `registry`: how a program that has mutations of its own
+/// gets all commands with them.
+///
+/// # Errors
+/// Whatever the command cannot do, with what to do about it.
+pub fn run_with(cli: &Cli, registry: &Registry) -> miette::Result<ExitCode> {
     match &cli.command {
-        Command::Render(args) => render::run(args),
-        Command::Plan(args) => plan::run(args).map(|()| ExitCode::SUCCESS),
-        Command::Profile(args) => profile::run(args).map(|()| ExitCode::SUCCESS),
-        Command::Replay(args) => replay::run(args),
+        Command::Render(args) => render::run(args, registry),
+        Command::Plan(args) => plan::run(args, registry).map(|()| ExitCode::SUCCESS),
+        Command::Profile(args) => profile::run(args, registry).map(|()| ExitCode::SUCCESS),
+        Command::Replay(args) => replay::run(args, registry),
         Command::Compare(args) => compare::run(args).map(|()| ExitCode::SUCCESS),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::load::SceneArgs;
 use super::output::{bytes, print};
-use crate::plan::{Plan, Stage, TablePlan};
+use crate::plan::{Plan, Registry, Stage, TablePlan};
 use crate::render::{Built, BuiltTable, TileWorld, short};
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
@@ -72,8 +72,8 @@ struct ColumnRow<'a> {
 ///
 /// # Errors
 /// A scene that cannot be loaded.
-pub fn run(args: &PlanArgs) -> Result<()> {
-    let loaded = args.scene.load()?;
+pub fn run(args: &PlanArgs, registry: &Registry) -> Result<()> {
+    let loaded = args.scene.load(registry)?;
     // A world is built as a render would build it, but for the scene and the film, which only running systems look at.
     let tile = TileWorld::new(&loaded.plan.tile, 0, |_| {});
     let built = Built::read(&tile, &loaded.plan.tile);

@@ -1,13 +1,13 @@
 //! `profile`: what every stage costs.
 
-use super::budget::BudgetArgs;
+use super::budget::{BudgetArgs, Default};
 use super::load::SceneArgs;
 use super::output::{count, print};
 use super::target::check_writable;
 use super::{interrupt, memory};
 use crate::film::write_file;
-use crate::plan::{Stage, SystemSpec, Traces};
-use crate::render::{Budget, Rendering, drive, start};
+use crate::plan::{Registry, Stage, SystemSpec, Traces};
+use crate::render::{Rendering, drive, start};
 use crate::systems::Span;
 use crate::systems::list::TRACE_LOOP;
 use clap::Args;
@@ -80,13 +80,15 @@ struct Cost {
 ///
 /// # Errors
 /// A scene that cannot be loaded, or a trace file that cannot be written.
-pub fn run(args: &ProfileArgs) -> Result<()> {
+pub fn run(args: &ProfileArgs, registry: &Registry) -> Result<()> {
     if let Some(path) = &args.trace {
         check_writable(path)?;
     }
-    let loaded = args.scene.load()?;
+    let loaded = args.scene.load(registry)?;
     let threads = usize::from(args.threads);
     memory::check(&loaded, threads)?;
+    let pixels = loaded.scene.pixel_count();
+    let budget = args.budget.of(&loaded.plan, pixels, Default::Time(DEFAULT_TIME))?;
     let interrupt = interrupt::listen()?;
     let (scene, plan) = (Arc::clone(&loaded.scene), loaded.plan.clone());
     let mut render = start(scene, plan, args.seed, threads, &interrupt, &|_| {})?;
@@ -94,12 +96,7 @@ pub fn run(args: &ProfileArgs) -> Result<()> {
         render.for_each_world(&mut |_, world| world.record_spans(TRACE_EVENTS));
     }
     let began = Instant::now();
-    let outcome = drive(
-        &mut *render,
-        args.budget.or(Budget::Time(DEFAULT_TIME)),
-        &interrupt,
-        &|_| {},
-    );
+    let outcome = drive(&mut *render, budget, &interrupt, &|_| {});
     if let Some(path) = &args.trace {
         write_file(path, &trace_events(&*render, began)?)?;
     }

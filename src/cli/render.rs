@@ -1,13 +1,14 @@
 //! `render`: from a scene to a picture.
 
-use super::budget::{BudgetArgs, ThreadArgs};
-use super::load::{SceneArgs, settings};
+use super::budget::{BudgetArgs, Default, TargetArgs, ThreadArgs};
+use super::load::{Loaded, SceneArgs, settings};
 use super::output::{count, note, print};
 use super::report::Report;
 use super::target::check_writable;
 use super::{interrupt, memory};
-use crate::film::{PictureMetadata, ToneMap, write_exr, write_png};
-use crate::render::{Budget, Progress, drive, start};
+use crate::film::{PictureMetadata, ToneMap, write_exr, write_file, write_png};
+use crate::plan::Registry;
+use crate::render::{Findings, Progress, RenderError, drive, resume, start};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use miette::{IntoDiagnostic, Result, miette};
@@ -16,7 +17,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 /// Samples per pixel where neither `--spp` nor `--time` is given.
-pub const DEFAULT_SPP: u64 = 96;
+pub const DEFAULT_SPP: f64 = 96.0;
 
 /// Steps of a progress bar.
 const BAR_STEPS: u64 = 1_000_000;
@@ -25,15 +26,23 @@ const BAR_STEPS: u64 = 1_000_000;
 #[derive(Args, Clone, Debug)]
 pub struct RenderArgs {
     #[command(flatten)]
-    scene: SceneArgs,
+    pub(super) scene: SceneArgs,
     /// The picture, an OpenEXR file; a PNG is written beside it [default: the scene's name in this folder]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
     budget: BudgetArgs,
+    #[command(flatten)]
+    target: TargetArgs,
+    /// Save the render to this file when it ends, to go on from with --resume
+    #[arg(long, value_name = "FILE")]
+    save: Option<PathBuf>,
+    /// Go on with a saved render as if it had never stopped; --spp then counts from its beginning
+    #[arg(long, value_name = "FILE")]
+    resume: Option<PathBuf>,
     /// Seed of all random numbers: the same seed gives the same bytes
     #[arg(long, value_name = "N", default_value_t = 0)]
-    seed: u64,
+    pub(super) seed: u64,
     #[command(flatten)]
     threads: ThreadArgs,
     /// Print a report as JSON on standard output
@@ -45,49 +54,54 @@ pub struct RenderArgs {
 ///
 /// # Errors
 /// Whatever stands in the way, before rendering where it can be known then.
-pub fn run(args: &RenderArgs) -> Result<ExitCode> {
+pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
     let output = args.output.clone().unwrap_or_else(|| default_output(&args.scene.scene));
     let png = output.with_extension("png");
     check_output(&output, &png)?;
-    let loaded = args.scene.load()?;
+    if let Some(path) = &args.save {
+        check_writable(path)?;
+    }
+    let saved = args.resume.as_deref().map(read_saved).transpose()?;
+    let loaded = args.scene.load(registry)?;
     let threads = args.threads.count();
     memory::check(&loaded, threads)?;
+    let pixels = loaded.scene.pixel_count();
+    let default = Default::Samples(DEFAULT_SPP);
+    let goal = args.target.within(args.budget, &loaded.plan, pixels, default)?;
     let interrupt = interrupt::listen()?;
     let bar = progress_bar();
     let (scene, plan) = (Arc::clone(&loaded.scene), loaded.plan.clone());
-    let mut render = start(scene, plan, args.seed, threads, &interrupt, &|_| {})?;
-    let outcome = drive(
-        &mut *render,
-        args.budget.or(Budget::Steps(DEFAULT_SPP)),
-        &interrupt,
-        &|p| show(&bar, p),
-    );
+    let begun = match &saved {
+        Some((path, bytes)) => resume(scene, plan, args.seed, threads, bytes)
+            .map_err(|error| miette::Report::from(error).wrap_err(format!("{}: cannot go on", path.display()))),
+        None => start(scene, plan, args.seed, threads, &interrupt, &|share| {
+            show_bootstrap(&bar, share)
+        })
+        .or_else(|error| match error {
+            RenderError::Interrupted => Err(Interrupted.into()),
+            error => Err(error.into()),
+        }),
+    };
+    let mut render = match begun {
+        Err(error) if error.is::<Interrupted>() => return Ok(nothing_written(&bar)),
+        begun => begun?,
+    };
+    let outcome = drive(&mut *render, goal, &interrupt, &|p| show(&bar, &loaded, p));
     bar.finish_and_clear();
     if outcome.steps == 0 {
-        note("interrupted before the first sample: nothing was written");
-        return Ok(ExitCode::from(interrupt::EXIT_STATUS));
+        return Ok(nothing_written(&bar));
     }
-    let picture = render.picture();
-    let metadata = PictureMetadata {
-        scene: scene_name(&args.scene.scene),
-        technique: loaded.plan.technique.name().to_owned(),
-        settings: settings(&loaded),
-        seed: args.seed,
-        steps: outcome.steps,
-        software: concat!("chainlight ", env!("CARGO_PKG_VERSION")).to_owned(),
-        ..PictureMetadata::default()
-    };
-    write_exr(&output, &picture, &metadata)?;
+    let findings = render.as_chains().map(Findings::of);
+    let mut picture = render.picture();
+    if let (Some(chains), Some(findings)) = (render.as_chains(), &findings) {
+        picture = chains.with_layers(picture, findings);
+    }
+    write_exr(&output, &picture, &metadata(args, &loaded, outcome.steps))?;
     write_png(&png, picture.view(), ToneMap::automatic(picture.view()))?;
-    let report = Report::new(
-        &args.scene.scene,
-        args.seed,
-        &loaded,
-        &*render,
-        outcome,
-        &picture,
-        &output,
-    );
+    if let Some(path) = &args.save {
+        write_file(path, &render.save())?;
+    }
+    let report = Report::new(args, &loaded, &*render, outcome, &picture, &output, findings);
     if args.json {
         print(&serde_json::to_string_pretty(&report).into_diagnostic()?)?;
     } else {
@@ -99,6 +113,47 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     } else {
         ExitCode::SUCCESS
     })
+}
+
+/// Somebody stopped it before there was anything to write.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[error("interrupted before the first step")]
+struct Interrupted;
+
+fn nothing_written(bar: &ProgressBar) -> ExitCode {
+    bar.finish_and_clear();
+    note("interrupted before the first sample: nothing was written");
+    ExitCode::from(interrupt::EXIT_STATUS)
+}
+
+fn read_saved(path: &Path) -> Result<(PathBuf, Vec<u8>)> {
+    let bytes = std::fs::read(path).map_err(|error| {
+        miette!(
+            help = "give the file that --save wrote",
+            "{}: cannot be read: {error}",
+            path.display()
+        )
+    })?;
+    Ok((path.to_owned(), bytes))
+}
+
+fn metadata(args: &RenderArgs, loaded: &Loaded, steps: u64) -> PictureMetadata {
+    let metadata = PictureMetadata {
+        scene: scene_name(&args.scene.scene),
+        technique: loaded.plan.technique.name().to_owned(),
+        settings: settings(loaded),
+        seed: args.seed,
+        steps,
+        software: concat!("chainlight ", env!("CARGO_PKG_VERSION")).to_owned(),
+        ..PictureMetadata::default()
+    };
+    match &loaded.plan.chains {
+        Some(chains) => {
+            let mutations = chains.counts.mutations_per_pixel(steps, loaded.scene.pixel_count());
+            metadata.with("mutations_per_pixel", mutations.to_string())
+        }
+        None => metadata,
+    }
 }
 
 fn default_output(scene: &Path) -> PathBuf {
@@ -142,14 +197,34 @@ fn progress_bar() -> ProgressBar {
     bar
 }
 
-fn show(bar: &ProgressBar, progress: Progress) {
+fn show_bootstrap(bar: &ProgressBar, share: f64) {
+    bar.set_position((share * BAR_STEPS as f64) as u64);
+    bar.set_message("bootstrap");
+}
+
+fn show(bar: &ProgressBar, loaded: &Loaded, progress: Progress) {
     bar.set_position((progress.fraction * BAR_STEPS as f64) as u64);
     let rate = progress.samples as f64 / bar.elapsed().as_secs_f64().max(1e-9);
-    bar.set_message(format!(
-        "{} samples per pixel, {} samples/s",
-        progress.steps,
-        count(rate)
-    ));
+    let mut message = match &loaded.plan.chains {
+        Some(chains) => {
+            let mutations = chains
+                .counts
+                .mutations_per_pixel(progress.steps, loaded.scene.pixel_count());
+            format!("{mutations:.1} mutations per pixel, {} a second", count(rate))
+        }
+        None => format!("{} samples per pixel, {} a second", progress.steps, count(rate)),
+    };
+    if let Some(error) = progress.error {
+        message += &format!(
+            ", error {:.2} % (up to {:.2} %)",
+            100.0 * error.rms,
+            100.0 * error.upper
+        );
+    }
+    if let Some(acceptance) = progress.acceptance {
+        message += &format!(", {:.0} % taken", 100.0 * acceptance);
+    }
+    bar.set_message(message);
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use super::budget::ThreadArgs;
 use super::load::SceneArgs;
 use super::output::{note, print};
 use super::{interrupt, replay_text};
+use crate::plan::Registry;
 use crate::render::RenderError;
 use crate::replay::{Moment, Part, ReplayError, replay};
 use clap::Args;
@@ -39,8 +40,8 @@ const BAR_STEPS: u64 = 1000;
 ///
 /// # Errors
 /// A scene that cannot be loaded, or a chain or step that there is not.
-pub fn run(args: &ReplayArgs) -> Result<ExitCode> {
-    let loaded = args.scene.load()?;
+pub fn run(args: &ReplayArgs, registry: &Registry) -> Result<ExitCode> {
+    let loaded = args.scene.load(registry)?;
     let interrupt = interrupt::listen()?;
     let moment = Moment {
         seed: args.seed,

@@ -2,24 +2,31 @@
 
 use super::load::{Loaded, settings};
 use super::output::{count, note};
+use super::render::RenderArgs;
 use crate::film::{ImageView, Picture};
-use crate::render::{Outcome, Rendering, Stop};
+use crate::render::{ChainRender, Findings, Outcome, Rendering, Stop};
+use crate::stats::error::PictureError;
 use serde::Serialize;
 use std::path::Path;
 
 /// What `--json` prints. Times stand here and not in the picture, whose bytes are those of its settings alone.
 #[derive(Serialize)]
-pub(super) struct Report<'a> {
+pub(super) struct Report {
     scene: String,
     technique: &'static str,
     settings: String,
     seed: u64,
     steps: u64,
+    /// Samples per pixel; mutations per pixel of techniques with chains. `--spp` with it gives the same bytes.
+    samples_per_pixel: f64,
     /// Whether somebody stopped it before its budget was spent.
     pub(super) interrupted: bool,
+    /// Whether it ended because its error was below the target.
+    target_reached: bool,
     output: String,
     threads: usize,
     load_seconds: f64,
+    bootstrap_seconds: Option<f64>,
     render_seconds: f64,
     samples: u64,
     samples_per_second: f64,
@@ -27,6 +34,8 @@ pub(super) struct Report<'a> {
     segments: u64,
     /// Mean over pixels and channels, W sr⁻¹ m⁻².
     mean: f64,
+    /// The picture's relative error over block means, with its 95 % interval.
+    error: Option<PictureError>,
     /// Root of the mean squared standard error of pixels and channels; absent with a single sample.
     rms_error: Option<f64>,
     relative_rms_error: Option<f64>,
@@ -34,57 +43,69 @@ pub(super) struct Report<'a> {
     first_non_finite: Option<(u32, u64)>,
     saturated: u64,
     vanished: u64,
-    warnings: &'a [String],
+    chains: Option<Findings>,
+    warnings: Vec<String>,
 }
 
-impl<'a> Report<'a> {
-    /// What there is to say of `picture`, rendered from the file `scene` with `seed` and written to `output`.
+impl Report {
+    /// What there is to say of `picture`, rendered as `args` say and written to `output`.
     pub(super) fn new(
-        scene: &Path,
-        seed: u64,
-        loaded: &'a Loaded,
+        args: &RenderArgs,
+        loaded: &Loaded,
         render: &dyn Rendering,
         outcome: Outcome,
         picture: &Picture,
         output: &Path,
+        chains: Option<Findings>,
     ) -> Self {
         let counters = render.counters();
         let tally = render.tally();
         let mean = channel_mean(picture.view(), f64::from);
-        let rms_error = (outcome.steps > 1).then(|| {
-            channel_mean(
-                ImageView {
-                    rgb: &picture.error,
-                    ..picture.view()
-                },
-                |e| f64::from(e) * f64::from(e),
-            )
-            .sqrt()
-        });
+        let errors = ImageView {
+            rgb: &picture.error,
+            ..picture.view()
+        };
+        let rms_error = channel_mean(errors, |e| f64::from(e) * f64::from(e)).sqrt();
+        let rms_error = rms_error.is_finite().then_some(rms_error);
         let seconds = outcome.elapsed.as_secs_f64();
+        let mut warnings = loaded.warnings.clone();
+        warnings.extend(chains.iter().flat_map(Findings::warnings));
+        let error = chains
+            .as_ref()
+            .map_or_else(|| render.error(), |findings| findings.error);
+        let samples_per_pixel = render
+            .as_chains()
+            .map_or(outcome.steps as f64, ChainRender::mutations_per_pixel);
         Self {
-            scene: scene.display().to_string(),
+            scene: args.scene.scene.display().to_string(),
             technique: loaded.plan.technique.name(),
             settings: settings(loaded),
-            seed,
+            seed: args.seed,
             steps: outcome.steps,
+            samples_per_pixel,
             interrupted: outcome.stop == Stop::Interrupted,
+            target_reached: outcome.stop == Stop::TargetReached,
             output: output.display().to_string(),
             threads: render.threads(),
             load_seconds: loaded.load_time.as_secs_f64(),
+            bootstrap_seconds: render
+                .as_chains()
+                .map(|chains| chains.run.bootstrap_time().as_secs_f64()),
             render_seconds: seconds,
             samples: counters.decisions,
             samples_per_second: counters.decisions as f64 / seconds.max(1e-9),
             rays: counters.rays,
             segments: counters.segments,
             mean,
+            error,
             rms_error,
             relative_rms_error: rms_error.filter(|_| mean > 0.0).map(|error| error / mean),
             non_finite: counters.non_finite + tally.non_finite,
             first_non_finite: counters.first_non_finite,
             saturated: tally.saturated,
             vanished: tally.vanished,
-            warnings: &loaded.warnings,
+            chains,
+            warnings,
         }
     }
 
@@ -92,23 +113,35 @@ impl<'a> Report<'a> {
     pub(super) fn summary(&self, png: &Path) -> String {
         let Self {
             technique,
-            steps,
+            samples_per_pixel,
             render_seconds,
             threads,
             ..
         } = self;
-        let error = self
-            .relative_rms_error
-            .map(|e| format!(", relative RMS error {:.2} %", 100.0 * e))
-            .unwrap_or_default();
+        let what = if self.chains.is_some() { "mutations" } else { "samples" };
         let interrupted = if self.interrupted { "interrupted; " } else { "" };
-        format!(
-            "{interrupted}{technique}: {steps} samples per pixel in {render_seconds:.1} s on {threads} threads, {} samples/s{error}\n\
-         wrote {} and {}",
-            count(self.samples_per_second),
-            self.output,
-            png.display()
-        )
+        let mut out = format!(
+            "{interrupted}{technique}: {samples_per_pixel} {what} per pixel in {render_seconds:.1} s on {threads} threads, \
+             {} {what} a second\n",
+            count(self.samples_per_second)
+        );
+        let error = self.error.map(|error| {
+            let [low, high] = error.interval;
+            let (error, low, high) = (100.0 * error.rms, 100.0 * low, 100.0 * high);
+            format!("error {error:.2} % of the mean, over block means (95 %: {low:.2} to {high:.2} %)")
+        });
+        let pixels = self
+            .relative_rms_error
+            .map(|e| format!("{:.1} % over pixels", 100.0 * e));
+        let errors: Vec<String> = error.into_iter().chain(pixels).collect();
+        if !errors.is_empty() {
+            out += &format!("{}\n", errors.join("; "));
+        }
+        if let Some(findings) = &self.chains {
+            out += &super::findings::text(findings);
+        }
+        out += &format!("wrote {} and {}", self.output, png.display());
+        out
     }
 
     /// Says in words what numbers in the report would hide.
@@ -123,6 +156,9 @@ impl<'a> Report<'a> {
                 "warning: {} samples were too bright for the film and were cut: the picture is wrong",
                 self.saturated
             ));
+        }
+        for warning in self.chains.iter().flat_map(Findings::warnings) {
+            note(&format!("warning: {warning}"));
         }
     }
 }

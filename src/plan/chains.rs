@@ -82,6 +82,20 @@ impl ChainCounts {
     pub const fn total(&self) -> u32 {
         self.groups * self.chains
     }
+
+    /// Mutations per pixel of a film of `pixels` pixels after `steps` steps.
+    #[must_use]
+    pub fn mutations_per_pixel(&self, steps: u64, pixels: u32) -> f64 {
+        steps as f64 * f64::from(self.total()) / f64::from(pixels)
+    }
+
+    /// The steps that come nearest to so many mutations per pixel, at least one. What [`Self::mutations_per_pixel`] says
+    /// of some steps comes back as those.
+    #[must_use]
+    pub fn steps_for(&self, mutations_per_pixel: f64, pixels: u32) -> u64 {
+        let mutations = mutations_per_pixel * f64::from(pixels);
+        (mutations / f64::from(self.total())).round().max(1.0) as u64
+    }
 }
 
 /// Why chains cannot be planned.
@@ -214,6 +228,7 @@ fn core_before() -> Vec<SystemPlan> {
 fn core_after(weighs_choices: bool) -> Vec<SystemPlan> {
     let mut systems = vec![
         SystemPlan::new(WEIGH_SAMPLES, "the normalization is their mean weight"),
+        SystemPlan::new(TALLY_INDEPENDENT, "the normalization gets surer while chains run"),
         SystemPlan::new(COUNT_VISITS, "groups are compared by where their chains are"),
     ];
     if weighs_choices {

@@ -7,10 +7,10 @@ use super::deal::deal;
 use super::group::{BootstrapSamples, Seed, Start};
 use super::rendering::merge_costs;
 use super::tile_world::{TileWorld, lock};
-use crate::chain::{BootstrapWeight, KeyChain, ProposedClass};
+use crate::chain::{BootstrapWeight, KeyChain, Normalization, ProposedClass};
 use crate::path::{ChainKey, ChainTable, Decisions};
 use crate::plan::{ChainCounts, ChainPlan, TilePlan};
-use crate::systems::chains::{ChainStatistics, GroupPlace, MutationLists, Mutations};
+use crate::systems::chains::{ChainStatistics, GroupPlace, MutationLists, Mutations, WeightTally, weight_unit};
 use crate::systems::tile::Counters;
 use crate::systems::{Run, SystemCost};
 use bevy_ecs::world::World;
@@ -124,6 +124,7 @@ impl ChainRun {
             let tile = tile.get_mut().unwrap_or_else(PoisonError::into_inner);
             tile.forget_start(mutations);
         }
+        self.set_units();
         self.bootstrap_time = start.elapsed();
         progress(1.0);
         Ok(())
@@ -172,6 +173,35 @@ impl ChainRun {
             seeds[group as usize] = chosen;
         }
         Ok(seeds)
+    }
+
+    /// Tells every tile in which units its group's weights are added up.
+    pub(super) fn set_units(&mut self) {
+        for tile in &mut self.tiles {
+            let tile = tile.get_mut().unwrap_or_else(PoisonError::into_inner);
+            let b = self.starts[tile.group].normalization.b;
+            tile.world.world_mut().resource_mut::<GroupPlace>().unit = weight_unit(b);
+        }
+    }
+
+    /// b of every group: the mean weight of its bootstrap's samples and of all independent proposals since. Each has the
+    /// true b for its expectation. (A group's product of b and of the mean over its states is exactly unbiased with the
+    /// bootstrap's b alone; with this one it has a bias that falls with the number of samples, far below the error, while
+    /// the bootstrap's error would not fall at all.)
+    #[must_use]
+    pub fn normalizations(&self) -> Vec<f64> {
+        let mut tallies = vec![WeightTally::default(); self.starts.len()];
+        for tile in &self.tiles {
+            let tile = lock(tile);
+            let more = tile.world.world().resource::<ChainStatistics>().independent;
+            let sum = &mut tallies[tile.group];
+            (sum.sum, sum.count) = (sum.sum.saturating_add(more.sum), sum.count + more.count);
+        }
+        let b = |(start, tally): (&Start, &WeightTally)| {
+            let Normalization { b, samples, .. } = start.normalization;
+            tally.mean_with(b, samples, weight_unit(b))
+        };
+        self.starts.iter().zip(&tallies).map(b).collect()
     }
 
     /// Runs `steps` more steps of every chain, the tiles dealt in the given order, which must name every tile once; others
@@ -328,6 +358,7 @@ impl Tile {
         let place = GroupPlace {
             group,
             first_chain: group * chains.counts.chains,
+            unit: 1.0,
         };
         let world = TileWorld::new(plan, seed, |world| {
             insert_core(world, chains, mutations);

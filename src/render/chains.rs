@@ -1,14 +1,18 @@
 //! Renders with Markov chains of light paths.
 
 use super::chain_run::ChainRun;
-use super::rendering::Rendering;
+use super::rendering::{Rendering, error_blocks};
 use super::tile_world::{TileWorld, lock};
-use super::{RenderError, Start};
+use super::{Findings, RenderError};
 use crate::chain::StateClass;
-use crate::film::{BlockGrid, FilmError, GroupFilm, Picture, Tally, develop_groups};
+use crate::color::Rgb;
+use crate::film::{BlockGrid, FilmError, GroupFilm, LayerChannels, Picture, Tally, block_means, develop_groups};
 use crate::plan::Plan;
 use crate::scene::Scene;
+use crate::stats::error::PictureError;
+use crate::stats::group_means::GroupMeans;
 use crate::systems::SystemCost;
+use crate::systems::chains::ProposalCount;
 use crate::systems::tile::{Counters, FilmBlocks, GroupFilmRef, SceneRef};
 use bevy_ecs::world::World;
 use std::sync::atomic::AtomicBool;
@@ -87,33 +91,67 @@ impl ChainRender {
         })
     }
 
-    /// The factor that turns a group's sums into radiance: b, spread over the pixels, for each step of each chain.
+    /// The factors that turn the groups' sums into radiance: b, spread over the pixels, for each step of each chain.
     #[must_use]
-    pub fn scale(&self, group: usize) -> f64 {
+    pub fn scales(&self) -> Vec<f64> {
         let states = self.run.steps() as f64 * f64::from(self.run.counts().chains);
-        let b = self
-            .run
-            .starts()
-            .get(group)
-            .map_or(0.0, |start: &Start| start.normalization.b);
-        if states > 0.0 {
-            b * f64::from(self.scene.pixel_count()) / states
-        } else {
-            0.0
-        }
+        let pixels = f64::from(self.scene.pixel_count());
+        let scale = |b: f64| if states > 0.0 { b * pixels / states } else { 0.0 };
+        self.run.normalizations().into_iter().map(scale).collect()
     }
 
-    /// Mutations per pixel after `steps` steps.
+    /// What every group estimates for the mean radiance of every block and channel (number block · 3 + channel).
     #[must_use]
-    pub fn mutations_per_pixel(&self, steps: u64) -> f64 {
-        steps as f64 * f64::from(self.run.counts().total()) / f64::from(self.scene.pixel_count())
+    pub fn group_block_means(&self, grid: &BlockGrid) -> Option<GroupMeans> {
+        let scales = self.scales();
+        let row = |(film, scale): (&Arc<Mutex<GroupFilm>>, &f64)| block_means(&lock(film), grid, *scale);
+        let rows = self
+            .films
+            .iter()
+            .zip(&scales)
+            .map(row)
+            .collect::<Result<Vec<_>, _>>()
+            .ok()?;
+        GroupMeans::from_rows(&rows).ok()
     }
 
-    /// The steps that come nearest to so many mutations per pixel, at least one.
+    /// Mutations per pixel so far.
     #[must_use]
-    pub fn steps_for(&self, mutations_per_pixel: f64) -> u64 {
-        let mutations = mutations_per_pixel * f64::from(self.scene.pixel_count());
-        (mutations / f64::from(self.run.counts().total())).round().max(1.0) as u64
+    pub fn mutations_per_pixel(&self) -> f64 {
+        self.run
+            .counts()
+            .mutations_per_pixel(self.run.steps(), self.scene.pixel_count())
+    }
+
+    /// `picture` with what the groups tell of it, as layers: `block_error`, the standard error of the mean of the pixel's
+    /// block among [`error_blocks`], and `agreement`, how far groups lie apart in the pixel's block among those that states
+    /// are classed by: the ratio of the variance between groups to the one that chains inside them explain, about 1 where
+    /// nothing is wrong, 0 where too little was seen.
+    #[must_use]
+    pub fn with_layers(&self, picture: Picture, findings: &Findings) -> Picture {
+        let pixels = 0..self.scene.pixel_count();
+        let grid = error_blocks(&self.scene);
+        let errors: Vec<f32> = self.group_block_means(&grid).map_or_else(Vec::new, |means| {
+            means.estimates().iter().map(|estimate| estimate.error as f32).collect()
+        });
+        let error = |pixel: u32| {
+            let first = 3 * grid.block_of(pixel)?;
+            let [r, g, b] = errors.get(first..first + 3)? else {
+                return None;
+            };
+            Some(Rgb::new(*r, *g, *b))
+        };
+        let ratio = |pixel: u32| {
+            findings
+                .block_ratios
+                .get(self.blocks.block_of(pixel)?)
+                .map(|&ratio| ratio as f32)
+        };
+        let errors = pixels.clone().map(|pixel| error(pixel).unwrap_or_default()).collect();
+        let ratios = pixels.map(|pixel| ratio(pixel).unwrap_or_default()).collect();
+        picture
+            .with_layer("block_error", LayerChannels::Rgb(errors))
+            .with_layer("agreement", LayerChannels::Y(ratios))
     }
 
     /// What a class of states is called in reports.
@@ -191,10 +229,28 @@ impl Rendering for ChainRender {
     fn picture(&self) -> Picture {
         let films: Vec<_> = self.films.iter().map(|film| lock(film)).collect();
         let films: Vec<_> = films.iter().map(|film| &**film).collect();
-        let scales: Vec<f64> = (0..films.len()).map(|group| self.scale(group)).collect();
-        let weight = self.mutations_per_pixel(self.steps()) as f32;
+        let scales = self.scales();
+        let weight = self.mutations_per_pixel() as f32;
         // All films are of the scene's size, and there is a finite scale for each.
         develop_groups(&films, &scales, weight).unwrap_or_default()
+    }
+
+    fn error(&self) -> Option<PictureError> {
+        let means = self.group_block_means(&error_blocks(&self.scene))?;
+        PictureError::of(&means)?.relative_to(means.grand_mean())
+    }
+
+    fn acceptance(&self) -> Option<f64> {
+        let statistics = self.run.statistics();
+        let all = statistics
+            .proposals
+            .iter()
+            .fold(ProposalCount::default(), |sum, count| sum.plus(*count));
+        (all.proposed > 0).then(|| all.accepted as f64 / all.proposed as f64)
+    }
+
+    fn save(&self) -> Vec<u8> {
+        ChainRender::save(self)
     }
 
     fn tally(&self) -> Tally {

@@ -1,6 +1,8 @@
 //! How long a render runs: bursts until a budget is spent or someone interrupts.
 
 use super::Rendering;
+use crate::stats::error::PictureError;
+use crate::stats::stopping::{self, Checkpoints};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -13,11 +15,33 @@ pub enum Budget {
     Time(Duration),
 }
 
+/// When a render ends: with its budget, or before, once its error is small enough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Goal {
+    /// What it may cost.
+    pub budget: Budget,
+    /// The relative error of the picture ([`Rendering::error`]) below whose upper confidence bound nothing more is done. It
+    /// is looked at after a number of steps that doubles each time: a rule that looks again and again until it likes what
+    /// it sees would stop too early, and so would one that looked at the estimate instead of the bound.
+    pub target_error: Option<f64>,
+}
+
+impl From<Budget> for Goal {
+    fn from(budget: Budget) -> Self {
+        Self {
+            budget,
+            target_error: None,
+        }
+    }
+}
+
 /// Why a render ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
     /// The budget was spent.
     Done,
+    /// The picture's error is below the target.
+    TargetReached,
     /// Somebody asked it to stop.
     Interrupted,
 }
@@ -31,6 +55,10 @@ pub struct Progress {
     pub samples: u64,
     /// Steps that all chains have finished.
     pub steps: u64,
+    /// The picture's relative error when it was last looked at.
+    pub error: Option<PictureError>,
+    /// The share of proposals taken when it was last looked at, for chains.
+    pub acceptance: Option<f64>,
 }
 
 /// How a render ended.
@@ -54,11 +82,16 @@ const BURST: Duration = Duration::from_millis(250);
 /// reproduces it.
 pub fn drive(
     render: &mut dyn Rendering,
-    budget: Budget,
+    goal: impl Into<Goal>,
     interrupt: &AtomicBool,
     progress: &(impl Fn(Progress) + Sync),
 ) -> Outcome {
+    let Goal { budget, target_error } = goal.into();
     let start = Instant::now();
+    let checkpoints = Checkpoints::new(first_checkpoint(render));
+    let mut checkpoint = checkpoints.next(render.steps());
+    let mut error: Option<PictureError> = None;
+    let mut acceptance = None;
     let samples = AtomicU64::new(u64::from(render.chains()) * render.steps());
     let mut burst = 1;
     let stop = loop {
@@ -75,7 +108,7 @@ pub fn drive(
         if interrupt.load(Ordering::Relaxed) {
             break Stop::Interrupted;
         }
-        let steps = burst.min(left);
+        let steps = burst.min(left).min(checkpoint - render.steps());
         let began = Instant::now();
         let finished = render.steps();
         let total = u64::from(render.chains());
@@ -85,20 +118,43 @@ pub fn drive(
                 Budget::Steps(steps) => samples as f64 / (steps as f64 * total as f64),
                 Budget::Time(limit) => start.elapsed().as_secs_f64() / limit.as_secs_f64().max(1e-9),
             };
+            // Errors fall with the root of the work.
+            let towards_target = target_error.zip(error).map_or(0.0, |(target, error)| {
+                let ratio = target / error.upper.max(f64::MIN_POSITIVE);
+                ratio * ratio
+            });
             progress(Progress {
-                fraction: fraction.min(1.0),
+                fraction: fraction.max(towards_target).min(1.0),
                 samples,
                 steps: finished,
+                error,
+                acceptance,
             });
         });
         let took = began.elapsed().as_secs_f64().max(1e-9);
-        burst = ((steps as f64 * BURST.as_secs_f64() / took) as u64).clamp(1, 2 * steps);
+        burst = ((steps as f64 * BURST.as_secs_f64() / took) as u64).clamp(1, (2 * steps).max(burst));
+        if render.steps() >= checkpoint {
+            checkpoint = checkpoints.next(render.steps());
+            (error, acceptance) = (render.error(), render.acceptance());
+            if let (Some(target), Some(error)) = (target_error, error)
+                && stopping::decide(&error, target)
+            {
+                break Stop::TargetReached;
+            }
+        }
     };
     Outcome {
         stop,
         steps: render.steps(),
         elapsed: start.elapsed(),
     }
+}
+
+/// The steps after which the error is first looked at: enough for a spread to show, and for a state per pixel.
+fn first_checkpoint(render: &dyn Rendering) -> u64 {
+    const STEPS: u64 = 16;
+    let pixels = u64::from(render.scene().pixel_count());
+    STEPS.max(pixels.div_ceil(u64::from(render.chains())))
 }
 
 /// Steps that are expected to fit into `left`, at least one, at the pace so far.

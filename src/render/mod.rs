@@ -1,27 +1,34 @@
 //! Rendering: tiles built from a plan, dealt to threads, burst by burst.
 
 mod built;
+mod bytes;
 mod chain_run;
 mod chains;
 mod deal;
 mod driver;
+mod findings;
 mod group;
 mod lone_chain;
 mod rendering;
+mod saved;
+mod saved_tile;
 mod tile_world;
 
 pub use built::{Built, BuiltColumn, BuiltTable, short};
 pub use chain_run::ChainRun;
 pub use chains::ChainRender;
-pub use driver::{Budget, Outcome, Progress, Stop, drive};
+pub use driver::{Budget, Goal, Outcome, Progress, Stop, drive};
+pub use findings::{ClassFinding, Findings, LengthFindings, MutationFindings};
 pub use group::Start;
 pub use lone_chain::{LoneChain, LoneStart};
-pub use rendering::Rendering;
+pub use rendering::{Rendering, error_blocks};
+pub use saved::SavedRenderError;
 pub use tile_world::TileWorld;
 
-use crate::film::{Film, FilmError, Picture, Tally};
+use crate::film::{Film, FilmError, Picture, Tally, block_means_of, block_variances};
 use crate::plan::Plan;
 use crate::scene::Scene;
+use crate::stats::error::PictureError;
 use crate::systems::SystemCost;
 use crate::systems::tile::{Counters, FilmRef, SceneRef};
 use deal::deal;
@@ -71,6 +78,10 @@ pub enum RenderError {
         /// Whether each pixel is a chain.
         samples_pixels: bool,
     },
+    /// What was saved cannot be taken up.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Saved(#[from] SavedRenderError),
     /// Somebody stopped it before the first step.
     #[error("interrupted before the first step")]
     Interrupted,
@@ -88,6 +99,7 @@ pub struct Render {
     pub plan: Plan,
     /// The film.
     pub film: Arc<Film>,
+    seed: u64,
     worlds: Vec<Mutex<TileWorld>>,
     pool: rayon::ThreadPool,
     steps: u64,
@@ -114,6 +126,7 @@ impl Render {
             scene,
             plan,
             film,
+            seed,
             worlds,
             pool,
             steps: 0,
@@ -188,6 +201,21 @@ impl Rendering for Render {
         self.film.develop()
     }
 
+    fn error(&self) -> Option<PictureError> {
+        let (picture, grid) = (self.picture(), error_blocks(&self.scene));
+        let variances = block_variances(&picture, &grid).ok()?;
+        let means = block_means_of(picture.view(), &grid).ok()?;
+        if !variances.iter().all(|variance| variance.is_finite()) {
+            return None;
+        }
+        let mean = means.iter().sum::<f64>() / means.len() as f64;
+        PictureError::of_independent(&variances).relative_to(mean)
+    }
+
+    fn save(&self) -> Vec<u8> {
+        Render::save(self)
+    }
+
     fn tally(&self) -> Tally {
         self.film.tally()
     }
@@ -216,6 +244,28 @@ pub fn start(
         Box::new(ChainRender::start(scene, plan, seed, threads, interrupt, progress)?)
     } else {
         Box::new(Render::new(scene, plan, seed, threads)?)
+    })
+}
+
+/// Takes up a render that [`Rendering::save`] saved: it goes on as if it had never stopped.
+///
+/// # Errors
+/// As [`start`], and for bytes that are no saved render, or one of something else.
+pub fn resume(
+    scene: Arc<Scene>,
+    plan: Plan,
+    seed: u64,
+    threads: usize,
+    saved: &[u8],
+) -> Result<Box<dyn Rendering>, RenderError> {
+    Ok(if plan.chains.is_some() {
+        let mut render = ChainRender::unstarted(scene, plan, seed, threads)?;
+        render.restore(saved)?;
+        Box::new(render)
+    } else {
+        let mut render = Render::new(scene, plan, seed, threads)?;
+        render.restore(saved)?;
+        Box::new(render)
     })
 }
 

@@ -1,9 +1,10 @@
 //! What all renders have in common, whether their samples are independent or states of chains.
 
 use super::{ChainRender, TileWorld};
-use crate::film::{Picture, Tally};
+use crate::film::{BlockGrid, Picture, Tally};
 use crate::plan::{Plan, SystemSpec, TilePlan};
 use crate::scene::Scene;
+use crate::stats::error::PictureError;
 use crate::systems::SystemCost;
 use crate::systems::tile::Counters;
 use std::sync::Arc;
@@ -34,6 +35,15 @@ pub trait Rendering {
     fn busy_time(&self) -> Duration;
     /// The picture so far, with its standard errors.
     fn picture(&self) -> Picture;
+    /// The picture's error so far, relative to its mean: the root mean square over block means of [`error_blocks`] and
+    /// channels, with a 95 % interval. `None` while nothing is known of it, or of a black picture.
+    fn error(&self) -> Option<PictureError>;
+    /// The share of proposals that chains have taken; `None` without chains.
+    fn acceptance(&self) -> Option<f64> {
+        None
+    }
+    /// The render so far, to be taken up by [`resume`](super::resume).
+    fn save(&self) -> Vec<u8>;
     /// What films could not take as it was.
     fn tally(&self) -> Tally;
     /// The render itself, if it is one with chains.
@@ -42,6 +52,16 @@ pub trait Rendering {
     }
     /// Lets `look` see every world.
     fn for_each_world(&self, look: &mut dyn FnMut(usize, &mut TileWorld));
+}
+
+/// Blocks along a side of the film that errors are judged by. Single pixels of chains are mostly black, and what is left is
+/// far from normal; means over blocks are near enough to it for intervals.
+const ERROR_BLOCKS_PER_SIDE: u32 = 16;
+
+/// The blocks of a film that errors are judged by.
+#[must_use]
+pub fn error_blocks(scene: &Scene) -> BlockGrid {
+    BlockGrid::new(scene.width, scene.height, ERROR_BLOCKS_PER_SIDE)
 }
 
 /// Adds the costs of several worlds up, in the order of the plan.

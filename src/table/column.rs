@@ -38,6 +38,9 @@ impl<C: Column> Rows<C> for [C] {
     }
 }
 
+/// Shows a function the bytes of a column in a world, in the table whose rows have the given marker.
+pub type VisitBytes = fn(&mut World, ComponentId, &mut dyn FnMut(&mut [u8]));
+
 /// One column as a plan lists it.
 #[derive(Clone, Copy)]
 pub struct ColumnSpec {
@@ -50,7 +53,7 @@ pub struct ColumnSpec {
     /// Gives a row this column, zeroed.
     pub insert: for<'a, 'w> fn(&'a mut EntityWorldMut<'w>),
     /// Calls a function with the bytes of the column, in the table whose rows have the given marker.
-    pub bytes_of: fn(&mut World, ComponentId, &mut dyn FnMut(&mut [u8])),
+    pub bytes_of: VisitBytes,
 }
 
 impl ColumnSpec {

@@ -2,9 +2,11 @@
 
 mod evaluate_targets;
 mod gather_contribution;
+mod tally_independent;
 mod weigh_choices;
 
 pub use evaluate_targets::evaluate_targets;
 pub(super) use gather_contribution::Brightest;
 pub use gather_contribution::gather_contribution;
+pub use tally_independent::tally_independent;
 pub use weigh_choices::weigh_choices;

@@ -3,6 +3,7 @@
 mod bytes;
 mod oracle;
 mod staged;
+mod target;
 mod world;
 
 use chainlight::film::Picture;

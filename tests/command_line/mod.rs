@@ -1,5 +1,7 @@
 //! The program as a user runs it: arguments, files, messages, exit codes, interruption.
 
+mod chains;
+
 use chainlight::film::read_exr;
 use serde_json::Value;
 use std::path::{Path, PathBuf};

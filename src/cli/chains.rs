@@ -1,0 +1,32 @@
+//! `--groups`, `--chains` and `--bootstrap`: how chains are run.
+
+use crate::plan::ChainSettings;
+use clap::Args;
+
+/// How chains are run, for techniques that have some.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub struct ChainArgs {
+    /// Independent groups of chains, whose spread is the picture's error [default: 16]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    groups: Option<u32>,
+    /// Chains of each group [default: one for every 8 pixels of the film in all, from 16 to 1024 a group]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    chains: Option<u32>,
+    /// Samples of each group's bootstrap [default: 64 for each chain, at least 4096]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
+    bootstrap: Option<u32>,
+}
+
+impl ChainArgs {
+    /// The settings, defaults where nothing was given.
+    #[must_use]
+    pub fn settings(self) -> ChainSettings {
+        let defaults = ChainSettings::default();
+        ChainSettings {
+            groups: self.groups.unwrap_or(defaults.groups),
+            chains: self.chains,
+            bootstrap: self.bootstrap,
+            ..defaults
+        }
+    }
+}
