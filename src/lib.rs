@@ -52,6 +52,7 @@ pub mod math;
 pub mod path;
 pub mod plan;
 pub mod render;
+pub mod replay;
 pub mod sampling;
 pub mod scene;
 pub mod stats;

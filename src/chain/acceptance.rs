@@ -38,7 +38,7 @@ impl Reason {
     pub const fn text(self) -> &'static str {
         match self {
             Self::Sure => "accepted surely",
-            Self::Ratio => "accepted by ratio",
+            Self::Ratio => "decided by the ratio",
             Self::TargetZero => "impossible: the proposal's target is zero",
             Self::TargetNotFinite => "impossible: the proposal's target is not finite",
             Self::NoWayThere => "impossible: the proposal's density is zero",

@@ -2,6 +2,10 @@
 
 use crate::plan::ChainSettings;
 use clap::Args;
+use miette::{Result, miette};
+
+/// The most chains of a render: their numbers have 32 bits.
+const MOST_CHAINS: u64 = 1 << 26;
 
 /// How chains are run, for techniques that have some.
 #[derive(Args, Clone, Copy, Debug, Default)]
@@ -19,14 +23,24 @@ pub struct ChainArgs {
 
 impl ChainArgs {
     /// The settings, defaults where nothing was given.
-    #[must_use]
-    pub fn settings(self) -> ChainSettings {
+    ///
+    /// # Errors
+    /// More chains in all than there are numbers for, or more samples of a bootstrap.
+    pub fn settings(self) -> Result<ChainSettings> {
         let defaults = ChainSettings::default();
-        ChainSettings {
-            groups: self.groups.unwrap_or(defaults.groups),
+        let groups = self.groups.unwrap_or(defaults.groups);
+        let all = u64::from(groups) * u64::from(self.chains.unwrap_or(1));
+        if all > MOST_CHAINS {
+            return Err(miette!(
+                help = "ask for fewer with --groups or --chains",
+                "{all} chains are too many: there can be {MOST_CHAINS}"
+            ));
+        }
+        Ok(ChainSettings {
+            groups,
             chains: self.chains,
             bootstrap: self.bootstrap,
             ..defaults
-        }
+        })
     }
 }

@@ -109,7 +109,7 @@ impl SceneArgs {
         }
         let options = PlanOptions {
             tile_size: self.tile,
-            chains: self.chains.settings(),
+            chains: self.chains.settings()?,
             mutations,
         };
         let plan = Plan::with(&scene, technique, &options)?;

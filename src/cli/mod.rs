@@ -12,6 +12,8 @@ mod output;
 pub mod plan;
 pub mod profile;
 pub mod render;
+pub mod replay;
+mod replay_text;
 mod report;
 mod target;
 
@@ -35,6 +37,8 @@ enum Command {
     Plan(plan::PlanArgs),
     /// Render for a while and show what every stage costs.
     Profile(profile::ProfileArgs),
+    /// Show one step of one chain, or one sample of one pixel, as a render took it.
+    Replay(replay::ReplayArgs),
     /// Compare a picture with a reference of the same size.
     Compare(compare::CompareArgs),
     /// Try to refute mutations: hold them against the target, detailed balance, and their own densities.
@@ -60,6 +64,7 @@ pub fn run_with(cli: &Cli, registry: &Registry) -> miette::Result<ExitCode> {
         Command::Plan(args) => plan::run(args, registry).map(|()| ExitCode::SUCCESS),
         Command::Profile(args) => profile::run(args, registry).map(|()| ExitCode::SUCCESS),
         Command::Check(args) => check::run(args, registry),
+        Command::Replay(args) => replay::run(args, registry),
         Command::Compare(args) => compare::run(args).map(|()| ExitCode::SUCCESS),
     }
 }

@@ -77,9 +77,9 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
         None => start(scene, plan, args.seed, threads, &interrupt, &|share| {
             show_bootstrap(&bar, share)
         })
-        .or_else(|error| match error {
-            RenderError::Interrupted => Err(Interrupted.into()),
-            error => Err(error.into()),
+        .map_err(|error| match error {
+            RenderError::Interrupted => Interrupted.into(),
+            error => error.into(),
         }),
     };
     let mut render = match begun {

@@ -50,6 +50,13 @@ impl TilePlan {
         (self.size, self.reason) = (size, reason);
     }
 
+    /// The same tile for a single chain: its tables are a lane group wide.
+    #[must_use]
+    pub fn for_one_chain(mut self) -> Self {
+        self.resize(LANES as u32, "one chain".to_owned());
+        self
+    }
+
     /// Memory of the tile's tables as they are built, in bytes.
     #[must_use]
     pub fn bytes(&self) -> u64 {

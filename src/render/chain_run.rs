@@ -14,6 +14,7 @@ use crate::systems::chains::{ChainStatistics, GroupPlace, MutationLists, Mutatio
 use crate::systems::tile::Counters;
 use crate::systems::{Run, SystemCost};
 use bevy_ecs::world::World;
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -23,6 +24,8 @@ pub struct ChainRun {
     chains: ChainPlan,
     tile: TilePlan,
     seed: u64,
+    /// The groups that this run has tiles of.
+    groups: Range<u32>,
     pub(super) tiles: Vec<Mutex<Tile>>,
     pool: rayon::ThreadPool,
     pub(super) steps: u64,
@@ -54,37 +57,41 @@ impl ChainRun {
         threads: usize,
         insert: impl Fn(&mut World, usize),
     ) -> Result<Self, RenderError> {
+        let groups = 0..chains.counts.groups;
+        Self::of_groups(groups, tile, chains, seed, threads, insert)
+    }
+
+    /// [`new`](Self::new) with the tiles of some groups only. Groups share nothing, so these run as they would among all.
+    ///
+    /// # Errors
+    /// Threads that cannot be started.
+    pub fn of_groups(
+        groups: Range<u32>,
+        tile: TilePlan,
+        chains: ChainPlan,
+        seed: u64,
+        threads: usize,
+        insert: impl Fn(&mut World, usize),
+    ) -> Result<Self, RenderError> {
         let counts = chains.counts;
+        let groups = groups.start.min(counts.groups)..groups.end.min(counts.groups);
         let tiles_per_group = counts.chains.div_ceil(tile.size);
-        let pool = super::thread_pool(threads.clamp(1, (tiles_per_group * counts.groups) as usize))?;
+        let pool = super::thread_pool(threads.clamp(1, (tiles_per_group as usize * groups.len()).max(1)))?;
         let mutations = Mutations::new(&chains.mutations);
         let build = |group: u32, first: u32| {
-            let group_first = group * counts.chains;
-            let world = TileWorld::new(&tile, seed, |world| {
-                insert_core(world, &chains, &mutations);
-                world.insert_resource(GroupPlace {
-                    group,
-                    first_chain: group_first,
-                    unit: 1.0,
-                });
-                insert(world, group as usize);
-            });
-            Mutex::new(Tile {
-                world,
-                group: group as usize,
-                first_chain: group_first + first,
-                chains: tile.size.min(counts.chains - first),
-            })
+            let range = group * counts.chains + first..group * counts.chains + counts.chains.min(first + tile.size);
+            Mutex::new(Tile::new(&tile, &chains, &mutations, seed, range, &insert))
         };
         // Neighbours in this order belong to different groups, so that threads seldom wait for the same film.
         let firsts = (0..tiles_per_group).map(|number| number * tile.size);
-        let places = firsts.flat_map(|first| (0..counts.groups).map(move |group| (group, first)));
+        let places = firsts.flat_map(|first| groups.clone().map(move |group| (group, first)));
         let tiles = places.map(|(group, first)| build(group, first)).collect();
         Ok(Self {
             starts: vec![Start::default(); counts.groups as usize],
             chains,
             tile,
             seed,
+            groups,
             tiles,
             pool,
             steps: 0,
@@ -101,8 +108,44 @@ impl ChainRun {
     pub fn bootstrap(&mut self, interrupt: &AtomicBool, progress: &(dyn Fn(f64) + Sync)) -> Result<(), RenderError> {
         let start = Instant::now();
         let counts = self.chains.counts;
+        let seeds = self.draw_seeds(interrupt, progress)?;
+        let order: Vec<usize> = (0..self.tiles.len()).collect();
+        deal(&self.pool, &order, &|tile, _| {
+            let mut tile = lock(&self.tiles[tile]);
+            let first = tile.first_chain % counts.chains;
+            let chosen = seeds[tile.group].get(first as usize..(first + tile.chains) as usize);
+            if let Some(chosen) = chosen {
+                tile.seed(chosen, self.seed, counts.chains);
+            }
+        });
+        self.bootstrap_costs = self.costs();
+        let mutations = self.chains.mutations.len();
+        for tile in &mut self.tiles {
+            let tile = tile.get_mut().unwrap_or_else(PoisonError::into_inner);
+            tile.forget_start(mutations);
+        }
+        self.set_units();
+        self.bootstrap_time = start.elapsed();
+        progress(1.0);
+        Ok(())
+    }
+
+    /// Draws and weighs the samples of every group, and chooses among them a seed for each of its chains: by group, in the
+    /// order of its chains; none for a group without light, or one that is not here.
+    ///
+    /// # Errors
+    /// [`RenderError::Interrupted`] once `interrupt` is set.
+    pub(super) fn draw_seeds(
+        &mut self,
+        interrupt: &AtomicBool,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Vec<Vec<Seed>>, RenderError> {
+        let counts = self.chains.counts;
         let samples = counts.rounds as usize * counts.chains as usize;
-        let mut collected = vec![BootstrapSamples::new(samples); counts.groups as usize];
+        let mut collected = vec![BootstrapSamples::default(); counts.groups as usize];
+        for group in self.groups.clone() {
+            collected[group as usize] = BootstrapSamples::new(samples);
+        }
         let order: Vec<usize> = (0..self.tiles.len()).collect();
         for round in 0..counts.rounds {
             if interrupt.load(Ordering::Relaxed) {
@@ -122,31 +165,14 @@ impl ChainRun {
                 tile.world.read::<ProposedClass, ChainTable>(&mut group.classes[place]);
             }
         }
-        let mut seeds: Vec<Vec<Seed>> = Vec::new();
-        for (group, samples) in (0..).zip(&collected) {
+        let mut seeds = vec![Vec::new(); counts.groups as usize];
+        for group in self.groups.clone() {
+            let samples = &collected[group as usize];
             let (start, chosen) = Start::from_samples(samples, self.seed, group * counts.chains, counts.chains);
             self.starts[group as usize] = start;
-            seeds.push(chosen);
+            seeds[group as usize] = chosen;
         }
-        deal(&self.pool, &order, &|tile, _| {
-            let mut tile = lock(&self.tiles[tile]);
-            let first = tile.first_chain % counts.chains;
-            let chosen = seeds[tile.group].get(first as usize..(first + tile.chains) as usize);
-            if let Some(chosen) = chosen {
-                let group_first = tile.first_chain - first;
-                tile.seed(chosen, self.seed, group_first);
-            }
-        });
-        self.bootstrap_costs = self.costs();
-        let mutations = self.chains.mutations.len();
-        for tile in &mut self.tiles {
-            let tile = tile.get_mut().unwrap_or_else(PoisonError::into_inner);
-            tile.forget_start(mutations);
-        }
-        self.set_units();
-        self.bootstrap_time = start.elapsed();
-        progress(1.0);
-        Ok(())
+        Ok(seeds)
     }
 
     /// Tells every tile in which units its group's weights are added up.
@@ -319,12 +345,41 @@ fn insert_core(world: &mut World, chains: &ChainPlan, mutations: &Mutations) {
 }
 
 impl Tile {
-    fn run_once(&mut self, run: Run, step: u64) {
+    /// The world of the chains with these global numbers, which must be of one group; `insert` is told which.
+    pub(super) fn new(
+        plan: &TilePlan,
+        chains: &ChainPlan,
+        mutations: &Mutations,
+        seed: u64,
+        range: Range<u32>,
+        insert: &dyn Fn(&mut World, usize),
+    ) -> Self {
+        let group = range.start / chains.counts.chains;
+        let place = GroupPlace {
+            group,
+            first_chain: group * chains.counts.chains,
+            unit: 1.0,
+        };
+        let world = TileWorld::new(plan, seed, |world| {
+            insert_core(world, chains, mutations);
+            world.insert_resource(place);
+            insert(world, group as usize);
+        });
+        Self {
+            world,
+            group: group as usize,
+            first_chain: range.start,
+            chains: range.end - range.start,
+        }
+    }
+
+    pub(super) fn run_once(&mut self, run: Run, step: u64) {
         self.world.run_once(run, self.first_chain, self.chains, step);
     }
 
-    /// Draws the chosen samples again and takes them as the chains' first states.
-    fn seed(&mut self, chosen: &[Seed], seed: u64, group_first: u32) {
+    /// Draws the chosen samples again and takes them as the chains' first states. Groups have `chains_per_group` chains.
+    pub(super) fn seed(&mut self, chosen: &[Seed], seed: u64, chains_per_group: u32) {
+        let group_first = self.group as u32 * chains_per_group;
         let keys: Vec<u64> = chosen.iter().map(|s| s.key(seed, group_first).bits()).collect();
         let chains: Vec<u32> = chosen.iter().map(|s| group_first + s.chain).collect();
         self.world.write::<ChainKey, ChainTable>(&keys);
@@ -333,7 +388,7 @@ impl Tile {
     }
 
     /// Starts counting anew: what the bootstrap counted is not what steps count, but for what went wrong in it.
-    fn forget_start(&mut self, mutations: usize) {
+    pub(super) fn forget_start(&mut self, mutations: usize) {
         self.world.reset_costs();
         self.world.clear::<Decisions, ChainTable>();
         let counted = self.world.counters();

@@ -14,6 +14,7 @@ use crate::stats::group_means::GroupMeans;
 use crate::systems::SystemCost;
 use crate::systems::chains::ProposalCount;
 use crate::systems::tile::{Counters, FilmBlocks, GroupFilmRef, SceneRef};
+use bevy_ecs::world::World;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -76,11 +77,10 @@ impl ChainRender {
         let films = (0..chains.counts.groups)
             .map(film)
             .collect::<Result<Vec<_>, FilmError>>()?;
-        let blocks = Arc::new(BlockGrid::new(scene.width, scene.height, BLOCKS_PER_SIDE));
+        let blocks = Arc::new(state_blocks(&scene));
         let run = ChainRun::new(plan.tile.clone(), chains, seed, threads, |world, group| {
-            world.insert_resource(SceneRef(Arc::clone(&scene)));
+            insert_light(world, &scene, &blocks);
             world.insert_resource(GroupFilmRef(Arc::clone(&films[group])));
-            world.insert_resource(FilmBlocks(Arc::clone(&blocks)));
         })?;
         Ok(Self {
             scene,
@@ -180,6 +180,17 @@ impl ChainRender {
         let signature = crate::chain::Signature::of_number(length - StateClass::LENGTHS);
         format!("signature {}", signature.name())
     }
+}
+
+/// The blocks of the film that states are classed by.
+pub(super) fn state_blocks(scene: &Scene) -> BlockGrid {
+    BlockGrid::new(scene.width, scene.height, BLOCKS_PER_SIDE)
+}
+
+/// Inserts what chains of light read beside the core and the film.
+pub(super) fn insert_light(world: &mut World, scene: &Arc<Scene>, blocks: &Arc<BlockGrid>) {
+    world.insert_resource(SceneRef(Arc::clone(scene)));
+    world.insert_resource(FilmBlocks(Arc::clone(blocks)));
 }
 
 impl Rendering for ChainRender {

@@ -26,7 +26,7 @@ impl Default for Start {
 }
 
 /// The samples of a group's bootstrap: sample number round · chains + chain, chains counted inside the group.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct BootstrapSamples {
     pub(super) weights: Vec<f64>,
     pub(super) classes: Vec<u32>,

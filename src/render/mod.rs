@@ -8,6 +8,7 @@ mod deal;
 mod driver;
 mod findings;
 mod group;
+mod lone_chain;
 mod rendering;
 mod saved;
 mod saved_tile;
@@ -19,6 +20,7 @@ pub use chains::ChainRender;
 pub use driver::{Budget, Goal, Outcome, Progress, Stop, drive};
 pub use findings::{ClassFinding, Findings, LengthFindings, MutationFindings};
 pub use group::Start;
+pub use lone_chain::{LoneChain, LoneStart};
 pub use rendering::{Rendering, error_blocks};
 pub use saved::SavedRenderError;
 pub use tile_world::TileWorld;
@@ -58,6 +60,23 @@ pub enum RenderError {
     NoChains {
         /// The technique.
         technique: &'static str,
+    },
+    /// There is no such chain.
+    #[error("there is no chain {chain}: the chains of {technique} are 0 to {last}")]
+    #[diagnostic(help("{}", if *.samples_pixels {
+        "each pixel is a chain, row by row from the top left: y * width + x"
+    } else {
+        "groups follow each other: chain = group * chains of a group + number in the group"
+    }))]
+    NoSuchChain {
+        /// The number that was asked for.
+        chain: u32,
+        /// The technique.
+        technique: &'static str,
+        /// The last chain there is.
+        last: u32,
+        /// Whether each pixel is a chain.
+        samples_pixels: bool,
     },
     /// What was saved cannot be taken up.
     #[error(transparent)]

@@ -3,7 +3,7 @@
 use crate::plan::TilePlan;
 use crate::systems::tile::{Counters, Depths, Queues, TilePlace};
 use crate::systems::{Profile, Run, build_schedules};
-use crate::table::{Column, Rows};
+use crate::table::{Column, LANES, Rows};
 use bevy_ecs::change_detection::ContiguousMut;
 use bevy_ecs::component::Component;
 use bevy_ecs::query::With;
@@ -75,6 +75,14 @@ impl TileWorld {
         {
             values.iter_mut().enumerate().for_each(|(i, value)| *value = rows.at(i));
         }
+    }
+
+    /// The value of number `index` in column `C` of table `T`; none if the plan has no such column, or it is shorter.
+    pub fn at<C: Column, T: Component>(&mut self, index: usize) -> Option<C::Value> {
+        let mut column = self.world.query_filtered::<&C, With<T>>();
+        let column = column.query(&self.world);
+        let rows = column.contiguous_iter().ok()?.next()?;
+        (index / LANES < rows.len()).then(|| rows.at(index))
     }
 
     /// Overwrites the first values of column `C` of table `T`.

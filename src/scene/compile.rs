@@ -31,6 +31,8 @@ pub struct Scene {
     pub max_depth: u32,
     /// Names of the shapes that emit.
     pub light_names: Vec<String>,
+    /// Names of all instances, by number.
+    pub instance_names: Vec<String>,
 }
 
 /// What the command line says about a scene, beyond its file.
@@ -84,6 +86,7 @@ impl Scene {
             filter,
             max_depth: overrides.max_depth.unwrap_or(description.settings.max_depth),
             light_names: lit.map(|instance| instance.name.clone()).collect(),
+            instance_names: flattened.instances.iter().map(|i| i.name.clone()).collect(),
         })
     }
 
