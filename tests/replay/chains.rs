@@ -288,7 +288,7 @@ fn chains_without_light_are_shown_too() {
     let text = r#"(version: 1, camera: Perspective(origin: (0, 0, 5), target: (0, 0, 0), fov: 40),
         film: (width: 8, height: 8), materials: {"m": Diffuse(reflectance: (1, 1, 1))},
         shapes: [(shape: Sphere(radius: 1), material: "m")])"#;
-    let dark = crate::rendering::inline(text, 8);
+    let dark = crate::support::scenes::inline(text, 8);
     let replay = look(&Arc::clone(&dark), &plan(&dark, None, false), 50, 3);
     let group = replay.group.expect("chains have groups");
     assert_eq!((group.b, group.started_from), (0.0, None));

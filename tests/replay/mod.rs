@@ -18,7 +18,7 @@ const SEED: u64 = 11;
 
 /// A scene with every kind of material, on a small film.
 fn scene() -> Arc<Scene> {
-    crate::rendering::shipped("cornell-glass.ron", SIZE)
+    crate::support::scenes::shipped("cornell-glass.ron", SIZE)
 }
 
 /// A few small groups of chains, whose number no tile size divides.
