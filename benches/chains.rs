@@ -2,7 +2,7 @@
 //! triangles: nanoseconds per mutation, by stage and by kind of mutation, from a thousand chains to a quarter of a million,
 //! and what statistics, clock and schedule cost. Both techniques are in the same states, so the work is the same.
 //!
-//! `cargo bench --bench chains` prints tables. Rounds interleave everything that is compared in one process: medians of
+//! `cargo bench --bench chains` prints tables; with `-- box`, `-- room` or `-- prices`, only that part. Rounds interleave everything that is compared in one process: medians of
 //! ratios hold on a noisy machine, absolute times do not.
 #![expect(clippy::print_stdout, reason = "a benchmark prints its table")]
 
@@ -169,30 +169,43 @@ fn prices(scene: &Arc<Scene>) {
     }
 }
 
+/// Everything on one scene.
+fn tables(name: &str, scene: &Arc<Scene>) {
+    println!(
+        "\n{name}: {} primitives, {SIZE} x {SIZE} pixels, {GROUPS} groups, one thread; ns per mutation",
+        scene.geometry.primitive_count()
+    );
+    heading("mutation");
+    let mixture = compare("as usual", scene, USUAL_CHAINS, None, ROUNDS[0]);
+    for kind in KINDS {
+        compare(kind, scene, USUAL_CHAINS, Some(kind), ROUNDS[0]);
+    }
+    println!("  as usual, by stage:");
+    stages(&mixture);
+    heading("chains");
+    for chains in GROWTH {
+        compare(&chains.to_string(), scene, chains, None, ROUNDS[1]);
+    }
+}
+
 fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
     // `cargo test --benches` runs this too, and wants no figures.
-    if std::env::args().any(|argument| argument == "--test") {
+    if arguments.iter().any(|argument| argument == "--test") {
         return;
     }
+    let parts = ["box", "room", "prices"];
+    let asked = |part: &str| arguments.iter().any(|argument| argument == part);
+    let wanted = |part| asked(part) || !parts.into_iter().any(asked);
     let box_scene = cornell_box(SIZE);
-    let room = bumpy_room(2_090_000, SIZE);
-    for (name, scene) in [("Cornell box", &box_scene), ("bumpy room", &room)] {
-        println!(
-            "\n{name}: {} primitives, {SIZE} x {SIZE} pixels, {GROUPS} groups, one thread; ns per mutation",
-            scene.geometry.primitive_count()
-        );
-        heading("mutation");
-        let mixture = compare("as usual", scene, USUAL_CHAINS, None, ROUNDS[0]);
-        for kind in KINDS {
-            compare(kind, scene, USUAL_CHAINS, Some(kind), ROUNDS[0]);
-        }
-        println!("  as usual, by stage:");
-        stages(&mixture);
-        heading("chains");
-        for chains in GROWTH {
-            compare(&chains.to_string(), scene, chains, None, ROUNDS[1]);
-        }
+    if wanted("box") {
+        tables("Cornell box", &box_scene);
     }
-    println!("\nprices on the Cornell box:");
-    prices(&box_scene);
+    if wanted("room") {
+        tables("bumpy room", &bumpy_room(2_090_000, SIZE));
+    }
+    if wanted("prices") {
+        println!("\nprices on the Cornell box:");
+        prices(&box_scene);
+    }
 }

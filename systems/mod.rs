@@ -13,7 +13,8 @@
 //!       [`scatter_dielectric`](trace::scatter_dielectric),
 //!    7. continue: [`continue_paths`](trace::continue_paths);
 //!
-//!    or, for the depth-first baseline, [`trace_depth_first`](trace::trace_depth_first) alone;
+//!    or, for the depth-first baseline, [`trace_depth_first`](trace::trace_depth_first) alone (for chains,
+//!    [`mutate_depth_first`](trace::mutate_depth_first) in place of a whole step);
 //! 3. **evaluate**: [`gather_contribution`](evaluate::gather_contribution);
 //! 4. **accept**: [`accept_always`](accept::accept_always);
 //! 5. **splat**: [`splat_samples`](splat::splat_samples).

@@ -1,5 +1,5 @@
-//! Keyed streams over many lags: the first draws under keys in a row (chains, steps, depths, purposes, and chains with
-//! steps) are correlated with those 1 to 64 keys on and, for chains and steps, 2⁷ to 2³⁰ keys on; at lags that are powers
+//! Keyed streams over many lags: the first draws under keys in a row (chains, steps, depths, purposes, chains with steps, and
+//! what chains draw for choices, decisions, perturbations and bootstraps) are correlated with those 1 to 64 keys on and, for chains and steps, 2⁷ to 2³⁰ keys on; at lags that are powers
 //! of two, where generators with related states are most alike, their pairs are tested too. All tests together raise a
 //! false alarm once in a hundred; each sees a correlation of 0.006, or cells of pairs that are off by 1.3 % in the root
 //! mean square. The same tests refuse streams whose keys are not hashed.
@@ -9,6 +9,7 @@ use crate::support::verdict::{ALPHA, Family, POWER, say};
 use chainlight::sampling::{Purpose, StreamKey};
 use chainlight::stats::chi_square::chi_square;
 use chainlight::stats::z_test::Estimate;
+use chainlight::systems::chains::bootstrap_step;
 use rand_core::Rng;
 use rand_pcg::Pcg32;
 
@@ -17,7 +18,7 @@ const NEAR: usize = 64;
 /// Exponents of two of the far lags.
 const FAR: std::ops::RangeInclusive<u32> = 7..=30;
 /// Rows of keys.
-const ROWS: usize = 6;
+const ROWS: usize = 9;
 /// Near lags, far ones of two rows, and the pairs of those that are powers of two.
 const FAMILY: Family = Family {
     tests: ROWS * (NEAR + 7) + 2 * 2 * 24,
@@ -108,6 +109,36 @@ const EVERY_ROW: [Row; ROWS] = [
         key: |i| Key {
             chain: (i / 10) as u32,
             purpose: i % 10,
+            ..Key::FIRST
+        },
+        long: false,
+    },
+    // A chain's choice of a mutation, then its decision, step by step.
+    Row {
+        name: "choices and decisions",
+        key: |i| Key {
+            step: i / 2,
+            purpose: 4 + i % 2,
+            ..Key::FIRST
+        },
+        long: false,
+    },
+    // How far a chain moves its coordinates on the film and at its first seven vertices, step by step.
+    Row {
+        name: "perturbations",
+        key: |i| Key {
+            step: i / 8,
+            purpose: 6,
+            depth: (i % 8) as u32,
+            ..Key::FIRST
+        },
+        long: false,
+    },
+    // Steps of a chain, and rounds of the bootstrap in which it drew samples.
+    Row {
+        name: "steps and rounds",
+        key: |i| Key {
+            step: if i % 2 == 0 { i / 2 } else { bootstrap_step(i / 2) },
             ..Key::FIRST
         },
         long: false,
