@@ -57,5 +57,5 @@ fn a_pixel_is_replayed_without_states() {
 fn what_there_is_not_fails_with_the_range() {
     let output = run(&["--technique", "pssmlt", "--chain", "4000000", "--step", "0"]);
     let error = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success() && error.contains("0 to 255"), "{error}");
+    assert!(!output.status.success() && error.contains("0 to 1023"), "{error}");
 }
