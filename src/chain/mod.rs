@@ -17,6 +17,6 @@ pub use acceptance::{Decision, Reason, metropolis};
 pub use booking::{Booking, decide_with};
 pub use columns::*;
 pub use normalization::Normalization;
-pub use primary::{Kernel, KernelError, LEAST_STEP, to_f32, to_f64};
+pub use primary::{Kernel, KernelError, LEAST_STEP, Steps, to_f32, to_f64};
 pub use resample::{distinct, resample};
 pub use state::{Signature, StateClass};

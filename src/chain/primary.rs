@@ -95,6 +95,18 @@ impl Kernel {
         step_wide(c, wide(self.size(random)), random)
     }
 
+    /// The steps that 32 random bits each make of coordinates, all at
+    /// once, since the sizes of several steps can be computed side by side.
+    #[inline]
+    #[must_use]
+    pub fn steps<const N: usize>(&self, random: [u32; N]) -> Steps<N> {
+        let mut sizes = [0.0; N];
+        for (size, random) in sizes.iter_mut().zip(random) {
+            *size = self.size(random);
+        }
+        Steps { sizes, random }
+    }
+
     /// The logarithm of the density, per unit of the coordinate, with which [`perturb`](Self::perturb) leads from one
     /// coordinate to the other: the same both ways, −∞ where no step leads.
     #[inline]
@@ -165,14 +177,37 @@ impl Kernel {
 /// A size below 1 and of at least [`LEAST_STEP`], in units of 2⁻⁶⁴: exact. An `f64` in [1, 2) has 52 bits behind the point,
 /// which is more than such a size needs, and the shift leaves only them. No conversion that saturates is as fast.
 #[inline]
-fn wide(size: f32) -> u64 {
-    (1.0 + f64::from(size)).to_bits() << 12
+const fn wide(size: f32) -> u64 {
+    (1.0 + size as f64).to_bits() << 12
 }
 
 /// As [`wide`], in units of 2⁻³², to the nearest.
 #[inline]
-fn narrow(size: f32) -> u32 {
+const fn narrow(size: f32) -> u32 {
     ((wide(size) + (1 << 31)) >> 32) as u32
+}
+
+/// Small steps that were drawn together, see [`Kernel::steps`].
+#[derive(Clone, Copy, Debug)]
+pub struct Steps<const N: usize> {
+    sizes: [f32; N],
+    random: [u32; N],
+}
+
+impl<const N: usize> Steps<N> {
+    /// `c`, moved by step number `step`: what [`Kernel::perturb`] makes of it.
+    #[inline]
+    #[must_use]
+    pub const fn narrow(&self, step: usize, c: u32) -> u32 {
+        step_narrow(c, narrow(self.sizes[step]), self.random[step])
+    }
+
+    /// The wide coordinate `c`, moved by step number `step`: what [`Kernel::perturb_wide`] makes of it.
+    #[inline]
+    #[must_use]
+    pub const fn wide(&self, step: usize, c: u64) -> u64 {
+        step_wide(c, wide(self.sizes[step]), self.random[step])
+    }
 }
 
 /// `c` plus `size`, or minus it where the lowest bit of `random` is set (then `mask` negates: !x + 1).

@@ -52,6 +52,8 @@ struct Report {
     threads: usize,
     wall_seconds: f64,
     steps: u64,
+    /// Samples, or mutations, per pixel.
+    per_pixel: f64,
     paths: u64,
     rays: u64,
     segments: u64,
@@ -159,6 +161,7 @@ fn report(render: &dyn Rendering, wall: Duration) -> Report {
         threads: render.threads(),
         wall_seconds: wall.as_secs_f64(),
         steps: render.steps(),
+        per_pixel: paths as f64 / f64::from(render.scene().pixel_count()),
         paths,
         rays: counters.rays,
         segments: counters.segments,
@@ -180,12 +183,12 @@ fn text(report: &Report) -> String {
     let Report {
         technique,
         threads,
-        steps,
+        per_pixel,
         wall_seconds,
         ..
     } = report;
     let mut out = format!(
-        "{technique}: {} paths ({steps} per pixel), {} rays, {} segments in {wall_seconds:.2} s on {threads} threads; {:.0} ns per path\n\n\
+        "{technique}: {} paths ({per_pixel} per pixel), {} rays, {} segments in {wall_seconds:.2} s on {threads} threads; {:.0} ns per path\n\n\
          {:<10} {:<22} {:>9} {:>7} {:>9} {:>10} {:>10}\n",
         count(report.paths as f64),
         count(report.rays as f64),

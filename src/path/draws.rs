@@ -149,19 +149,14 @@ impl VertexCoordinates {
     #[must_use]
     pub fn perturbed(self, kernel: &Kernel, key: StreamKey, depth: u32) -> Self {
         let mut stream = key.stream(Purpose::PERTURB, depth);
-        let scatter = self.scatter.map(|c| kernel.perturb(c, stream.next_u32()));
-        let choice = kernel.perturb_wide(self.choice, stream.next_u32());
-        let light = self.light.map(|c| kernel.perturb(c, stream.next_u32()));
+        // Eight steps fill the lanes that six need.
+        let steps = kernel.steps::<8>(std::array::from_fn(|i| if i < 6 { stream.next_u32() } else { 0 }));
         let plays = depth >= roulette::FIRST_DEPTH;
         Self {
-            choice,
-            light,
-            scatter,
-            roulette: if plays {
-                kernel.perturb(self.roulette, stream.next_u32())
-            } else {
-                0
-            },
+            scatter: [0, 1].map(|i| steps.narrow(i, self.scatter[i])),
+            choice: steps.wide(2, self.choice),
+            light: [0, 1].map(|i| steps.narrow(3 + i, self.light[i])),
+            roulette: if plays { steps.narrow(5, self.roulette) } else { 0 },
         }
     }
 
