@@ -2,22 +2,37 @@
 //!
 //! A **step** runs the stages over a whole tile, each over all of its chains before the next begins:
 //!
-//! 1. **propose**: [`assign_pixels`](propose::assign_pixels), [`start_camera_paths`](propose::start_camera_paths);
+//! 1. **propose**: independent samples: [`assign_pixels`](propose::assign_pixels); chains:
+//!    [`key_chains`](propose::key_chains), [`choose_mutation`](propose::choose_mutation), and what each mutation brings, such
+//!    as [`propose_large_steps`](propose::propose_large_steps); then
+//!    [`start_camera_paths`](propose::start_camera_paths);
 //! 2. **trace**: [`trace_loop`](trace::trace_loop), which repeats, until no chain waits for a ray,
 //!    1. emit: [`emit_rays`](trace::emit_rays),
 //!    2. intersect: [`intersect_rays`](trace::intersect_rays),
 //!    3. extend: [`extend_paths`](trace::extend_paths),
-//!    4. connect: [`connect_lights`](trace::connect_lights),
-//!    5. transmit: [`transmit_segments`](trace::transmit_segments),
-//!    6. scatter: [`scatter_diffuse`](trace::scatter_diffuse), [`scatter_conductor`](trace::scatter_conductor),
+//!    4. draw: for chains, the coordinates of the new vertices, one system per mutation, such as
+//!       [`draw_small_steps`](propose::draw_small_steps),
+//!    5. connect: [`connect_lights`](trace::connect_lights),
+//!    6. transmit: [`transmit_segments`](trace::transmit_segments),
+//!    7. scatter: [`scatter_diffuse`](trace::scatter_diffuse), [`scatter_conductor`](trace::scatter_conductor),
 //!       [`scatter_dielectric`](trace::scatter_dielectric),
-//!    7. continue: [`continue_paths`](trace::continue_paths);
+//!    8. continue: [`continue_paths`](trace::continue_paths);
 //!
 //!    or, for the depth-first baseline, [`trace_depth_first`](trace::trace_depth_first) alone (for chains,
 //!    [`mutate_depth_first`](trace::mutate_depth_first) in place of a whole step);
-//! 3. **evaluate**: [`gather_contribution`](evaluate::gather_contribution);
-//! 4. **accept**: [`accept_always`](accept::accept_always);
-//! 5. **splat**: [`splat_samples`](splat::splat_samples).
+//! 3. **evaluate**: [`gather_contribution`](evaluate::gather_contribution); for chains
+//!    [`evaluate_targets`](evaluate::evaluate_targets), [`tally_independent`](evaluate::tally_independent), and, where the
+//!    choice of a mutation depends on the state, [`weigh_choices`](evaluate::weigh_choices);
+//! 4. **accept**: [`accept_always`](accept::accept_always); for chains [`decide`](accept::decide),
+//!    [`take_coordinates`](accept::take_coordinates), [`count_visits`](accept::count_visits);
+//! 5. **splat**: [`splat_samples`](splat::splat_samples); for chains [`splat_states`](splat::splat_states), and only then
+//!    [`take_splats`](splat::take_splats), which overwrites what was splatted.
+//!
+//! Chains start with a **bootstrap**: [`key_samples`](bootstrap::key_samples),
+//! [`start_independent`](bootstrap::start_independent), the proposal of the independent mutation, the trace and evaluate
+//! stages of a step, and [`weigh_samples`](bootstrap::weigh_samples). The seeds that are resampled are drawn again by the
+//! same systems and taken by those of the accept stage. Which of these [`Run`]s a system takes part in is in its
+//! [`Phases`](crate::plan::Phases).
 //!
 //! Which of them run is the plan's choice; their order is the plan's order. A system walks whole columns and holds no
 //! mathematics of its own: that stands in `src/`, where tests call it.

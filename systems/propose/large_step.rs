@@ -3,7 +3,7 @@
 //!
 //! | setting | meaning | default | others use |
 //! |---|---|---|---|
-//! | `weight` | how often it is tried, relative to the other mutations | 0.3 | 0.05 to 0.5 |
+//! | `weight` | how often it is tried, relative to the other mutations | 0.4 | 0.05 to 0.5 |
 //!
 //! It is what lets a chain reach any light, whatever else it does: without it, chains stay near their seeds. Where light is
 //! easy to find, more of it costs little; where it is hard, most large steps find nothing.
@@ -34,7 +34,7 @@ pub struct LargeStep {
 
 impl Default for LargeStep {
     fn default() -> Self {
-        Self { weight: 0.3 }
+        Self { weight: 0.4 }
     }
 }
 

@@ -4,9 +4,12 @@
 //!
 //! | setting | meaning | default | others use |
 //! |---|---|---|---|
-//! | `weight` | how often it is tried, relative to the other mutations | 0.7 | 0.5 to 0.95 |
+//! | `weight` | how often it is tried, relative to the other mutations | 0.6 | 0.5 to 0.95 |
 //! | `smallest` | the smallest step of a coordinate | 1/1024 | 1/1024 to 1/256 |
-//! | `largest` | the largest step of a coordinate, at most 0.5 | 1/64 | 1/64 to 1/16 |
+//! | `largest` | the largest step of a coordinate, at most 0.5 | 1/16 | 1/64 to 1/16 |
+//!
+//! The defaults are those with the smallest errors on the shipped scenes, among those tried (`ARCHITECTURE.md` has the table).
+//! Larger steps get around sooner and are turned down more often; they cost nothing else.
 //!
 //! Coordinates beyond the end of the current path are uniform whatever the state, so they are drawn afresh. T is symmetric:
 //! the product over the coordinates that both paths have.
@@ -41,9 +44,9 @@ pub struct SmallStep {
 impl Default for SmallStep {
     fn default() -> Self {
         Self {
-            weight: 0.7,
+            weight: 0.6,
             smallest: 1.0 / 1024.0,
-            largest: 1.0 / 64.0,
+            largest: 1.0 / 16.0,
         }
     }
 }
