@@ -2,8 +2,8 @@
 //! triangles: nanoseconds per mutation, by stage and by kind of mutation, from a thousand chains to a quarter of a million,
 //! and what statistics, clock and schedule cost. Both techniques are in the same states, so the work is the same.
 //!
-//! `cargo bench --bench chains` prints tables; with `-- box`, `-- room` or `-- prices`, only that part. Rounds interleave everything that is compared in one process: medians of
-//! ratios hold on a noisy machine, absolute times do not.
+//! `cargo bench --bench chains` prints tables; with `-- box`, `-- room` or `-- prices`, only that part. Rounds interleave
+//! everything that is compared in one process: medians of ratios hold on a noisy machine, absolute times do not.
 #![expect(clippy::print_stdout, reason = "a benchmark prints its table")]
 
 mod support;
