@@ -12,10 +12,11 @@ const PICTURE_BYTES: u64 = 64;
 pub fn needed(plan: &Plan, pixels: u32, threads: usize) -> u64 {
     let picture = PICTURE_BYTES * u64::from(pixels);
     // Chains keep a world for every tile, independent samples one for every thread.
-    let worlds = plan.chains.as_ref().map_or(threads as u64, |chains| {
-        let counts = chains.counts;
-        u64::from(counts.groups) * u64::from(counts.chains.div_ceil(plan.tile.size))
-    });
+    let worlds = if plan.chains.is_some() {
+        u64::from(plan.tiles(pixels))
+    } else {
+        threads as u64
+    };
     let tables = plan.tile.most_bytes().saturating_mul(worlds);
     plan.film_bytes
         .saturating_add(picture)

@@ -2,7 +2,7 @@
 
 use super::load::SceneArgs;
 use super::output::{bytes, print};
-use crate::plan::{Plan, Registry, Stage, TablePlan};
+use crate::plan::{ChainPlan, MutationPlan, Plan, Registry, Stage, TablePlan};
 use crate::render::{Built, BuiltTable, TileWorld, short};
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
@@ -24,6 +24,7 @@ pub struct PlanArgs {
 struct Report<'a> {
     technique: &'static str,
     effects: Vec<EffectRow<'a>>,
+    chains: Option<ChainRow>,
     systems: Vec<SystemRow<'a>>,
     tables: Vec<TableRow<'a>>,
     tile_chains: u32,
@@ -42,6 +43,23 @@ struct EffectRow<'a> {
     name: &'static str,
     on: bool,
     reason: &'a str,
+}
+
+/// The chains of a plan and their mutations.
+#[derive(Serialize)]
+struct ChainRow {
+    groups: u32,
+    chains_per_group: u32,
+    bootstrap_samples_per_group: u64,
+    mutations: Vec<MutationRow>,
+}
+
+#[derive(Serialize)]
+struct MutationRow {
+    name: &'static str,
+    about: &'static str,
+    settings: serde_json::Value,
+    reason: &'static str,
 }
 
 #[derive(Serialize)]
@@ -88,7 +106,7 @@ pub fn run(args: &PlanArgs, registry: &Registry) -> Result<()> {
     }
 }
 
-fn report<'a>(plan: &'a Plan, built: &'a Built, chains: u32) -> Report<'a> {
+fn report<'a>(plan: &'a Plan, built: &'a Built, pixels: u32) -> Report<'a> {
     let effects = plan.effects.iter();
     let inner = built.trace_loop.iter().map(|name| (name, true));
     let mut systems: Vec<SystemRow<'_>> = Vec::new();
@@ -113,17 +131,34 @@ fn report<'a>(plan: &'a Plan, built: &'a Built, chains: u32) -> Report<'a> {
                 reason: &e.reason,
             })
             .collect(),
+        chains: plan.chains.as_ref().map(chain_row),
         systems,
         tables,
         tile_chains: plan.tile.size,
         tile_reason: &plan.tile.reason,
         tile_bytes,
         bytes_per_chain: tile_bytes / u64::from(plan.tile.size),
-        tiles: chains.div_ceil(plan.tile.size),
+        tiles: plan.tiles(pixels),
         tracer: plan.tracer,
         tracer_reason: &plan.tracer_reason,
         tree_bytes: plan.tree_bytes,
         film_bytes: plan.film_bytes,
+    }
+}
+
+fn chain_row(plan: &ChainPlan) -> ChainRow {
+    let counts = plan.counts;
+    let row = |planned: &MutationPlan| MutationRow {
+        name: planned.mutation.name(),
+        about: planned.mutation.about(),
+        settings: planned.mutation.settings(),
+        reason: planned.reason,
+    };
+    ChainRow {
+        groups: counts.groups,
+        chains_per_group: counts.chains,
+        bootstrap_samples_per_group: u64::from(counts.rounds) * u64::from(counts.chains),
+        mutations: plan.mutations.iter().map(row).collect(),
     }
 }
 
@@ -173,6 +208,17 @@ fn text(report: &Report<'_>) -> String {
             if effect.on { "on" } else { "off" },
             effect.reason
         );
+    }
+    if let Some(chains) = &report.chains {
+        let _ = writeln!(
+            out,
+            "\n{} groups of {} chains, each with a bootstrap of {} samples\nmutations",
+            chains.groups, chains.chains_per_group, chains.bootstrap_samples_per_group
+        );
+        for mutation in &chains.mutations {
+            let (name, about, settings) = (mutation.name, mutation.about, &mutation.settings);
+            let _ = writeln!(out, "  {name:<20} {about}; {settings}: {}", mutation.reason);
+        }
     }
     out.push_str("\nsystems, in the order in which they run\n");
     for stage in Stage::ALL {

@@ -150,6 +150,15 @@ impl Plan {
         })
     }
 
+    /// Tiles of a render of `pixels` pixels: no tile has chains of two groups.
+    #[must_use]
+    pub fn tiles(&self, pixels: u32) -> u32 {
+        match &self.chains {
+            Some(plan) => plan.counts.groups * plan.counts.chains.div_ceil(self.tile.size),
+            None => pixels.div_ceil(self.tile.size),
+        }
+    }
+
     /// Whether `effect` is on.
     #[must_use]
     pub fn has(&self, effect: Effect) -> bool {
