@@ -146,9 +146,13 @@ impl Report {
 
     /// Says in words what numbers in the report would hide.
     pub(super) fn warn(&self) {
-        if let (n @ 1.., Some((chain, step))) = (self.non_finite, self.first_non_finite) {
+        if self.non_finite > 0 {
+            let first = self.first_non_finite;
+            let first = first.map(|(chain, step)| format!("; the first: chain {chain}, step {step}"));
             note(&format!(
-                "warning: {n} samples were not finite and count as black; the first: chain {chain}, step {step}"
+                "warning: {} samples were not finite and count as black{}",
+                self.non_finite,
+                first.unwrap_or_default()
             ));
         }
         if self.saturated > 0 {
