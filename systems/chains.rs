@@ -87,7 +87,13 @@ impl Mutations {
         if self.selective {
             for (weight, mutation) in weights.iter_mut().zip(self.list.iter()) {
                 if *weight > 0.0 {
-                    *weight *= mutation.suitability(class).max(0.0);
+                    let suitability = mutation.suitability(class);
+                    // What is no number suits nothing, here as in the probability.
+                    *weight *= if suitability.is_finite() {
+                        suitability.max(0.0)
+                    } else {
+                        0.0
+                    };
                 }
             }
         }
@@ -109,9 +115,9 @@ impl Mutations {
     /// probability there is 0, so that the proposal will be turned down.
     #[inline]
     #[must_use]
-    pub fn choose(&self, class: StateClass, u: f32) -> usize {
-        let weights = self.suitabilities(class);
-        let total: f32 = weights.iter().sum();
+    pub fn choose(&self, class: StateClass, u: f64) -> usize {
+        let weights = self.suitabilities(class).map(f64::from);
+        let total: f64 = weights.iter().sum();
         let mut left = u * total;
         let mut chosen = self.independent;
         for (number, &weight) in weights.iter().enumerate() {

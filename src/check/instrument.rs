@@ -76,9 +76,9 @@ impl AnyMutation for Instrumented {
     fn settings(&self) -> serde_json::Value {
         self.inner.settings()
     }
-    fn with(&self, key: &str, value: &str) -> Result<Arc<dyn AnyMutation>, String> {
+    fn with(&self, settings: &[(&str, &str)]) -> Result<Arc<dyn AnyMutation>, String> {
         Ok(Arc::new(Self {
-            inner: self.inner.with(key, value)?,
+            inner: self.inner.with(settings)?,
             systems: self.systems.clone(),
         }))
     }

@@ -168,15 +168,24 @@ pub struct Report {
     pub seconds: f64,
 }
 
+/// Proposals from states with light below which nothing can be said of a mutation.
+const LEAST_PROPOSALS: u64 = 1024;
+
 /// The failures of a report by kind.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Failures(pub Vec<(TestKind, usize)>);
 
 impl Report {
-    /// Whether every test passed.
+    /// Whether every test passed, and there was enough to judge by.
     #[must_use]
     pub fn passed(&self) -> bool {
-        self.tests.iter().all(|test| test.passed)
+        !self.is_undecided() && self.tests.iter().all(|test| test.passed)
+    }
+
+    /// Whether too few replicas had any light for a verdict.
+    #[must_use]
+    pub const fn is_undecided(&self) -> bool {
+        self.proposals < LEAST_PROPOSALS
     }
 
     /// The tests of a kind.
@@ -253,7 +262,11 @@ pub(super) const SHOWN: usize = 3;
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let verdict = if self.passed() { "passed" } else { "FAILED" };
+        let verdict = match (self.passed(), self.is_undecided()) {
+            (true, _) => "passed",
+            (false, true) => "UNDECIDED, too few replicas have any light",
+            (false, false) => "FAILED",
+        };
         writeln!(
             f,
             "{}: {verdict}; {} tests at {:.2} % in all, {} replicas, {:.1} s",

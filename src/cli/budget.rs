@@ -1,6 +1,6 @@
 //! `--spp`, `--time`, `--target-error` and `--threads`: how long to render, and on how many threads.
 
-use crate::plan::Plan;
+use crate::plan::{Effect, Plan};
 use crate::render::{Budget, Goal};
 use clap::Args;
 use miette::{Result, miette};
@@ -78,6 +78,19 @@ impl TargetArgs {
     /// As [`BudgetArgs::of`].
     pub fn within(self, budget: BudgetArgs, plan: &Plan, pixels: u32, default: Default) -> Result<Goal> {
         let default = if self.target_error.is_some() {
+            let groups = plan.chains.as_ref().map_or(2, |chains| chains.counts.groups);
+            if groups < 2 {
+                return Err(miette!(
+                    help = "16 groups are enough for the error to be known well",
+                    "--target-error needs --groups 2 or more: errors are the spread between groups"
+                ));
+            }
+            if !plan.has(Effect::Emission) {
+                return Err(miette!(
+                    help = "give a shape an emission",
+                    "--target-error has nothing to aim at: nothing emits, the picture is black"
+                ));
+            }
             Default::Endless
         } else {
             default

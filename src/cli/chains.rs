@@ -17,7 +17,7 @@ pub struct ChainArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     chains: Option<u32>,
     /// Samples of each group's bootstrap [default: 64 for each chain, at least 4096]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 26))]
     bootstrap: Option<u32>,
 }
 

@@ -11,11 +11,12 @@ const COLUMNS: usize = 7;
 /// The findings as lines of text.
 pub(super) fn text(findings: &Findings) -> String {
     let mut out = String::new();
-    let [low, high] = findings.normalization_interval;
+    let interval = findings.normalization_interval;
+    let interval = interval.map_or_else(String::new, |[low, high]| format!(" (95 %: {low:.5} to {high:.5})"));
     // Writing to a String cannot fail.
     let _ = writeln!(
         out,
-        "b {:.5} (95 %: {low:.5} to {high:.5}) from {} samples; {} chains in {} groups start from {} of them",
+        "b {:.5}{interval}; bootstraps of {} samples; {} chains in {} groups start from {} of them",
         findings.normalization,
         count(findings.bootstrap_samples as f64),
         findings.chains,
@@ -41,6 +42,20 @@ pub(super) fn text(findings: &Findings) -> String {
         );
     }
     out.push('\n');
+    if let Some(worst) = findings
+        .agreement
+        .iter()
+        .max_by(|a, b| a.agreement.ratio.total_cmp(&b.agreement.ratio))
+    {
+        let _ = writeln!(
+            out,
+            "groups agree to {:.2} of the variance expected or less in {} classes, worst in {} (R-hat {:.4})",
+            worst.agreement.ratio,
+            findings.agreement.len(),
+            worst.class,
+            worst.agreement.r_hat
+        );
+    }
     out
 }
 

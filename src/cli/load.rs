@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 pub struct SceneArgs {
     /// The scene file: RON, or JSON by its extension
     pub scene: PathBuf,
-    /// How to estimate the picture: pt, pt-reference, pssmlt [default: the scene's, or pt]
+    /// How to estimate the picture: pt, pt-reference, pssmlt, pssmlt-reference [default: the scene's, or pt]
     #[arg(long, value_name = "NAME")]
     pub technique: Option<Technique>,
     /// Film size in pixels instead of the scene's, such as 640x480

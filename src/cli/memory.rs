@@ -8,20 +8,37 @@ use miette::{Result, miette};
 /// Bytes per pixel of the developed picture with its errors and weights, and of the files made of it.
 const PICTURE_BYTES: u64 = 64;
 
+/// Bytes of a bootstrap's sample: its weight and its class.
+const SAMPLE_BYTES: u64 = 12;
+
+/// Bytes of what a world of chains counts, beside its tables.
+const COUNTS_BYTES: u64 = 64 << 10;
+
 /// Memory that a render takes at its peak, beside the scene: film, picture, tree, and a tile's tables per thread.
 pub fn needed(plan: &Plan, pixels: u32, threads: usize) -> u64 {
     let picture = PICTURE_BYTES * u64::from(pixels);
-    // Chains keep a world for every tile, independent samples one for every thread.
-    let worlds = if plan.chains.is_some() {
-        u64::from(plan.tiles(pixels))
-    } else {
-        threads as u64
-    };
+    let worlds = worlds(plan, pixels, threads);
     let tables = plan.tile.most_bytes().saturating_mul(worlds);
-    plan.film_bytes
+    // A bootstrap keeps what every sample weighs, and a world of chains what it counts.
+    let samples = plan.chains.as_ref().map_or(0, |chains| {
+        let counts = chains.counts;
+        u64::from(counts.rounds) * u64::from(counts.chains) * u64::from(counts.groups) * SAMPLE_BYTES
+            + worlds * COUNTS_BYTES
+    });
+    samples
+        .saturating_add(plan.film_bytes)
         .saturating_add(picture)
         .saturating_add(plan.tree_bytes)
         .saturating_add(tables)
+}
+
+/// Worlds that a render keeps: of chains one for every tile, of independent samples one for every thread.
+fn worlds(plan: &Plan, pixels: u32, threads: usize) -> u64 {
+    if plan.chains.is_some() {
+        u64::from(plan.tiles(pixels))
+    } else {
+        threads as u64
+    }
 }
 
 /// Refuses a render that would take more memory than is available, before any of it is taken: operating systems promise
@@ -39,12 +56,14 @@ fn judge(plan: &Plan, pixels: u32, threads: usize, available: Option<u64>) -> Re
     let needed = needed(plan, pixels, threads);
     match available {
         Some(available) if needed > available => Err(miette!(
-            help = "render a smaller picture (--size), with fewer threads, a smaller --tile or --max-depth",
-            "this render needs about {}, and {} are available: film {}, tables {} for each of {threads} threads",
+            help = "render a smaller picture (--size), with a smaller --tile or --max-depth, fewer --threads, or of chains fewer \
+                    --groups, --chains or --bootstrap samples",
+            "this render needs about {}, and {} are available: films {}, tables {} for each of {} worlds",
             bytes(needed),
             bytes(available),
             bytes(plan.film_bytes),
-            bytes(plan.tile.most_bytes())
+            bytes(plan.tile.most_bytes()),
+            worlds(plan, pixels, threads)
         )),
         _ => Ok(()),
     }
@@ -89,7 +108,7 @@ mod tests {
         let film = plan((65536, 4096), 2, 16);
         let error = judge(&film, 65536 * 4096, 1, gibibytes(24)).expect_err("48 GiB of film and picture");
         assert!(
-            error.to_string().contains("24.0 GiB are available: film 32.0 GiB"),
+            error.to_string().contains("24.0 GiB are available: films 32.0 GiB"),
             "{error}"
         );
         assert!(error.help().is_some_and(|help| help.to_string().contains("--size")));

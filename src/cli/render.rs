@@ -60,6 +60,13 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
     check_output(&output, &png)?;
     if let Some(path) = &args.save {
         check_writable(path)?;
+        if *path == output || *path == png {
+            return Err(miette!(
+                help = "give the saved render a name of its own",
+                "{}: the picture is written there",
+                path.display()
+            ));
+        }
     }
     let saved = args.resume.as_deref().map(read_saved).transpose()?;
     let loaded = args.scene.load(registry)?;

@@ -19,6 +19,20 @@ use crate::color::Rgb;
 /// Where there is no group, another number of scales than of groups, a scale that is not finite, or films of different
 /// sizes.
 pub fn develop_groups(films: &[&GroupFilm], scales: &[f64], weight: f32) -> Result<Picture, FilmError> {
+    develop_combined(films, scales, weight, |_| {})
+}
+
+/// [`develop_groups`], where `combine` makes of the groups' values of a pixel and channel those whose mean and spread the
+/// picture shows.
+///
+/// # Errors
+/// As [`develop_groups`].
+pub fn develop_combined(
+    films: &[&GroupFilm],
+    scales: &[f64],
+    weight: f32,
+    combine: impl Fn(&mut [f64]),
+) -> Result<Picture, FilmError> {
     let Some(first) = films.first().filter(|_| films.len() == scales.len()) else {
         return Err(FilmError::Groups {
             groups: films.len(),
@@ -41,12 +55,15 @@ pub fn develop_groups(films: &[&GroupFilm], scales: &[f64], weight: f32) -> Resu
     }
     let pixels = first.pixels();
     let (mut rgb, mut error) = (Vec::with_capacity(pixels.len()), Vec::with_capacity(pixels.len()));
-    let mut values = vec![[0.0; 3]; films.len()];
+    let mut values = [0, 1, 2].map(|_| vec![0.0; films.len()]);
     for pixel in pixels {
-        for ((value, film), scale) in values.iter_mut().zip(films).zip(scales) {
-            *value = film.sum(pixel).map(|sum| sum * scale);
+        for (group, (film, scale)) in films.iter().zip(scales).enumerate() {
+            for (values, sum) in values.iter_mut().zip(film.sum(pixel)) {
+                values[group] = sum * scale;
+            }
         }
-        let [r, g, b] = [0, 1, 2].map(|channel| mean_and_error(values.iter().map(|value| value[channel])));
+        values.iter_mut().for_each(|values| combine(values));
+        let [r, g, b] = [0, 1, 2].map(|channel: usize| mean_and_error(values[channel].iter().copied()));
         rgb.push(Rgb::new(r.0 as f32, g.0 as f32, b.0 as f32));
         error.push(Rgb::new(r.1 as f32, g.1 as f32, b.1 as f32));
     }

@@ -30,7 +30,7 @@ mod write;
 
 pub use accumulate::{Film, Splat};
 pub use blocks::BlockGrid;
-pub use develop_groups::{block_means, block_means_of, block_variances, develop_groups};
+pub use develop_groups::{block_means, block_means_of, block_variances, develop_combined, develop_groups};
 pub use exr_file::{encode_exr, write_exr};
 pub use exr_read::{ExrPicture, ReadError, decode_exr, read_exr};
 pub use filter::{Filter, FilterError};

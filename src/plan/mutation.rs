@@ -15,11 +15,15 @@ use serde::de::DeserializeOwned;
 use std::fmt;
 use std::sync::Arc;
 
+/// The largest weight that a mutation may have.
+pub const MAX_WEIGHT: f32 = 1e6;
+
 /// The most mutations that a plan may have.
 pub const MAX_MUTATIONS: usize = 16;
 
 /// A mutation: the struct that implements this holds its settings. Their defaults are the struct's
-/// [`Default`]; what serde reads is what the command line can set.
+/// [`Default`]; what serde reads is what the command line can set. One of the settings has to be called `weight`: it is what
+/// [`weight`](Self::weight) says, and how a mutation is tried alone or not at all.
 pub trait Mutation: Clone + Default + fmt::Debug + Serialize + DeserializeOwned + Send + Sync + 'static {
     /// Its name on the command line, in profiles and in tables.
     const NAME: &'static str;
@@ -139,11 +143,11 @@ pub trait AnyMutation: fmt::Debug + Send + Sync {
     fn support(&self) -> Option<Support>;
     /// Its settings, as JSON.
     fn settings(&self) -> serde_json::Value;
-    /// The same mutation with the setting `key` at `value`.
+    /// The same mutation with these settings, by key and value.
     ///
     /// # Errors
     /// A setting that it does not have, or a value that does not fit.
-    fn with(&self, key: &str, value: &str) -> Result<Arc<dyn AnyMutation>, String>;
+    fn with(&self, settings: &[(&str, &str)]) -> Result<Arc<dyn AnyMutation>, String>;
     /// Inserts [`Registered`].
     fn register(&self, number: usize, world: &mut World);
 }
@@ -188,22 +192,29 @@ impl<M: Mutation> AnyMutation for M {
     fn settings(&self) -> serde_json::Value {
         serde_json::to_value(self).unwrap_or_default()
     }
-    fn with(&self, key: &str, value: &str) -> Result<Arc<dyn AnyMutation>, String> {
-        let mut settings = AnyMutation::settings(self);
-        let known: Vec<String> = settings
-            .as_object()
-            .map(|map| map.keys().cloned().collect())
-            .unwrap_or_default();
-        let Some(entry) = settings.get_mut(key) else {
-            let hint = nearest_name(key, known.iter().map(String::as_str));
-            return Err(format!("`{}` has no setting `{key}`: {hint}", M::NAME));
-        };
-        *entry = serde_json::from_str(value).unwrap_or_else(|_| value.into());
-        let changed: M =
-            serde_json::from_value(settings).map_err(|error| format!("`{}`, setting `{key}`: {error}", M::NAME))?;
+    fn with(&self, settings: &[(&str, &str)]) -> Result<Arc<dyn AnyMutation>, String> {
+        let mut all = AnyMutation::settings(self);
+        for (key, value) in settings {
+            let known: Vec<String> = all
+                .as_object()
+                .map(|map| map.keys().cloned().collect())
+                .unwrap_or_default();
+            let Some(entry) = all.get_mut(*key) else {
+                let hint = nearest_name(key, known.iter().map(String::as_str));
+                return Err(format!("`{}` has no setting `{key}`: {hint}", M::NAME));
+            };
+            *entry = serde_json::from_str(value).unwrap_or_else(|_| (*value).into());
+            // So that a value that does not fit is told with its key.
+            serde_json::from_value::<M>(all.clone())
+                .map_err(|error| format!("`{}`, setting `{key}`: {error}", M::NAME))?;
+        }
+        let changed: M = serde_json::from_value(all).map_err(|error| format!("`{}`: {error}", M::NAME))?;
         let weight = Mutation::weight(&changed);
-        if !(weight >= 0.0 && weight.is_finite()) {
-            return Err(format!("`{}`: its weight is a number from 0 up, not {weight}", M::NAME));
+        if !(0.0..=MAX_WEIGHT).contains(&weight) {
+            return Err(format!(
+                "`{}`: its weight is a number from 0 up to {MAX_WEIGHT}, not {weight}",
+                M::NAME
+            ));
         }
         changed.check().map_err(|error| format!("`{}`: {error}", M::NAME))?;
         Ok(Arc::new(changed))
@@ -267,11 +278,10 @@ impl Registry {
     pub fn set(&mut self, text: &str) -> Result<(), String> {
         let form = || format!("expected NAME:SETTING=VALUE,..., such as small_step:weight=0.5, not `{text}`");
         let (name, settings) = text.split_once(':').ok_or_else(form)?;
-        let mut mutation = Arc::clone(self.get(name.trim())?);
-        for setting in settings.split(',') {
-            let (key, value) = setting.split_once('=').ok_or_else(form)?;
-            mutation = mutation.with(key.trim(), value.trim())?;
-        }
+        let pairs: Option<Vec<(&str, &str)>> = settings.split(',').map(|setting| setting.split_once('=')).collect();
+        let pairs: Vec<(&str, &str)> = pairs.ok_or_else(form)?;
+        let trimmed: Vec<(&str, &str)> = pairs.iter().map(|(key, value)| (key.trim(), value.trim())).collect();
+        let mutation = self.get(name.trim())?.with(&trimmed)?;
         self.put(mutation);
         Ok(())
     }
@@ -284,7 +294,7 @@ impl Registry {
         self.get(name)?;
         let mut only = Self::empty();
         for mutation in &self.mutations {
-            only.put(mutation.with("weight", if mutation.name() == name { "1" } else { "0" })?);
+            only.put(mutation.with(&[("weight", if mutation.name() == name { "1" } else { "0" })])?);
         }
         Ok(only)
     }

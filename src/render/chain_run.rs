@@ -8,10 +8,10 @@ use super::group::{BootstrapSamples, Seed, Start};
 use super::rendering::merge_costs;
 use super::tile_world::{TileWorld, lock};
 use crate::chain::{BootstrapWeight, KeyChain, Normalization, ProposedClass};
-use crate::path::{ChainKey, ChainTable, Decisions};
+use crate::path::{ChainKey, ChainTable, Decisions, PrimaryDepth, SplatCount};
 use crate::plan::{ChainCounts, ChainPlan, TilePlan};
 use crate::systems::chains::{ChainStatistics, GroupPlace, MutationLists, Mutations, WeightTally, weight_unit};
-use crate::systems::tile::Counters;
+use crate::systems::tile::{Counters, Depths};
 use crate::systems::{Run, SystemCost};
 use bevy_ecs::world::World;
 use std::ops::Range;
@@ -185,9 +185,7 @@ impl ChainRun {
     }
 
     /// b of every group: the mean weight of its bootstrap's samples and of all independent proposals since. Each has the
-    /// true b for its expectation. (A group's product of b and of the mean over its states is exactly unbiased with the
-    /// bootstrap's b alone; with this one it has a bias that falls with the number of samples, far below the error, while
-    /// the bootstrap's error would not fall at all.)
+    /// true b for its expectation.
     #[must_use]
     pub fn normalizations(&self) -> Vec<f64> {
         let mut tallies = vec![WeightTally::default(); self.starts.len()];
@@ -222,6 +220,20 @@ impl ChainRun {
     pub fn burst(&mut self, steps: u64, done: &(dyn Fn(u64) + Sync)) {
         let order: Vec<usize> = (0..self.tiles.len()).collect();
         self.burst_in_order(steps, &order, done);
+    }
+
+    /// Whether what states count by is within their tables: what a saved file says may be anything.
+    pub(super) fn states_are_sound(&self, max_depth: u32) -> bool {
+        let mut sound = true;
+        self.for_each_tile(&mut |chains, world| {
+            let mut depths = vec![0; chains.len()];
+            world.read::<PrimaryDepth, ChainTable>(&mut depths);
+            let held = world.world().resource::<Depths>().held().min(max_depth);
+            let mut splats = vec![0; chains.len()];
+            world.read::<SplatCount, ChainTable>(&mut splats);
+            sound &= depths.iter().all(|&depth| depth <= held) && splats.iter().all(|&count| count <= 1);
+        });
+        sound
     }
 
     /// How many chains there are.

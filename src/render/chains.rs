@@ -3,10 +3,10 @@
 use super::chain_run::ChainRun;
 use super::rendering::{Rendering, error_blocks};
 use super::tile_world::{TileWorld, lock};
-use super::{Findings, RenderError};
+use super::{Combination, Findings, RenderError};
 use crate::chain::StateClass;
 use crate::color::Rgb;
-use crate::film::{BlockGrid, FilmError, GroupFilm, LayerChannels, Picture, Tally, block_means, develop_groups};
+use crate::film::{BlockGrid, FilmError, GroupFilm, LayerChannels, Picture, Tally, block_means, develop_combined};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::stats::error::PictureError;
@@ -91,13 +91,18 @@ impl ChainRender {
         })
     }
 
-    /// The factors that turn the groups' sums into radiance: b, spread over the pixels, for each step of each chain.
-    #[must_use]
-    pub fn scales(&self) -> Vec<f64> {
+    /// The factor that turns a group's sums into means over its states, for each pixel.
+    fn per_state(&self) -> f64 {
         let states = self.run.steps() as f64 * f64::from(self.run.counts().chains);
         let pixels = f64::from(self.scene.pixel_count());
-        let scale = |b: f64| if states > 0.0 { b * pixels / states } else { 0.0 };
-        self.run.normalizations().into_iter().map(scale).collect()
+        if states > 0.0 { pixels / states } else { 0.0 }
+    }
+
+    /// How the groups make one picture.
+    #[must_use]
+    pub fn combination(&self) -> Combination {
+        let bootstraps: Vec<f64> = self.run.starts().iter().map(|start| start.normalization.b).collect();
+        Combination::new(&bootstraps, &self.run.normalizations())
     }
 
     /// The steps that come nearest to so many mutations per pixel, at least one.
@@ -108,18 +113,24 @@ impl ChainRender {
             .steps_for(mutations_per_pixel, self.scene.pixel_count())
     }
 
-    /// What every group estimates for the mean radiance of every block and channel (number block · 3 + channel).
+    /// What every group stands for in the mean radiance of every block and channel (number block · 3 + channel), see
+    /// [`Combination`].
     #[must_use]
     pub fn group_block_means(&self, grid: &BlockGrid) -> Option<GroupMeans> {
-        let scales = self.scales();
-        let row = |(film, scale): (&Arc<Mutex<GroupFilm>>, &f64)| block_means(&lock(film), grid, *scale);
-        let rows = self
-            .films
-            .iter()
-            .zip(&scales)
-            .map(row)
-            .collect::<Result<Vec<_>, _>>()
-            .ok()?;
+        let (per_state, combination) = (self.per_state(), self.combination());
+        let row = |film: &Arc<Mutex<GroupFilm>>| block_means(&lock(film), grid, per_state);
+        let mut rows = self.films.iter().map(row).collect::<Result<Vec<_>, _>>().ok()?;
+        let mut values = vec![0.0; rows.len()];
+        for statistic in 0..rows.first()?.len() {
+            values
+                .iter_mut()
+                .zip(&rows)
+                .for_each(|(value, row)| *value = row[statistic]);
+            combination.apply(&mut values);
+            rows.iter_mut()
+                .zip(&values)
+                .for_each(|(row, value)| row[statistic] = *value);
+        }
         GroupMeans::from_rows(&rows).ok()
     }
 
@@ -237,10 +248,10 @@ impl Rendering for ChainRender {
     fn picture(&self) -> Picture {
         let films: Vec<_> = self.films.iter().map(|film| lock(film)).collect();
         let films: Vec<_> = films.iter().map(|film| &**film).collect();
-        let scales = self.scales();
+        let (scales, combination) = (vec![self.per_state(); films.len()], self.combination());
         let weight = self.mutations_per_pixel() as f32;
         // All films are of the scene's size, and there is a finite scale for each.
-        develop_groups(&films, &scales, weight).unwrap_or_default()
+        develop_combined(&films, &scales, weight, |values| combination.apply(values)).unwrap_or_default()
     }
 
     fn error(&self) -> Option<PictureError> {

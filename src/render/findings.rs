@@ -16,6 +16,8 @@ use serde::Serialize;
 
 /// Of a hundred renders in which nothing is wrong, one may say that its groups disagree.
 const ALPHA: f64 = 0.01;
+/// Standard errors that a share has to be from nothing to be compared.
+const RESOLVED: f64 = 5.0;
 /// Visits of a batch in the mean below which a class is too rare for a ratio of variances to mean anything.
 const LEAST_VISITS: f64 = 64.0;
 /// Visits of a group below which it may have missed a class by chance, since a chain stays where it is for a while.
@@ -32,8 +34,8 @@ pub struct Findings {
     pub chains: u32,
     /// b, the mean of the groups' own, from bootstraps and from independent proposals since.
     pub normalization: f64,
-    /// The interval that covers the true b with 95 % probability, by Student's t over groups.
-    pub normalization_interval: [f64; 2],
+    /// The interval that covers the true b with 95 % probability, by Student's t over groups. `None` with a single group.
+    pub normalization_interval: Option<[f64; 2]>,
     /// Samples of all bootstraps.
     pub bootstrap_samples: u64,
     /// Different samples that chains start from.
@@ -48,6 +50,8 @@ pub struct Findings {
     pub longest_rejections_chain: u32,
     /// How many independent draws of where a state lies on the film would tell as much as all chains do.
     pub effective_samples: Option<EffectiveSamples>,
+    /// How groups agree in every class that was visited often enough to be judged.
+    pub agreement: Vec<ClassAgreement>,
     /// Classes in which groups disagree more than their own spread explains.
     pub disagreements: Vec<ClassFinding>,
     /// Notable classes that some groups have never been in.
@@ -84,6 +88,18 @@ pub struct LengthFindings {
     pub count: ProposalCount,
 }
 
+/// How groups agree in a class of states.
+#[derive(Clone, Debug, Serialize)]
+pub struct ClassAgreement {
+    /// Its name.
+    pub class: String,
+    /// Its share of the light, by the chains.
+    pub share: f64,
+    /// The spread between groups against that inside them.
+    #[serde(flatten)]
+    pub agreement: Agreement,
+}
+
 /// Something about a class of states.
 #[derive(Clone, Debug, Serialize)]
 pub struct ClassFinding {
@@ -108,9 +124,9 @@ impl Findings {
         by_group.iter().for_each(|group| all.add(group));
         let starts = render.run.starts();
         let b = render.run.normalizations();
-        let (normalization, normalization_interval) = normalization(&b, starts[0].normalization.interval(0.95));
+        let (normalization, normalization_interval) = normalization(&b);
         let shares = Shares::new(&by_group);
-        let agreements = shares.agreements();
+        let agreements = shares.agreements(counts.chains);
         let mut block_ratios = vec![0.0; StateClass::BLOCKS];
         for (class, agreement) in &agreements {
             if *class < StateClass::BLOCKS {
@@ -133,6 +149,14 @@ impl Findings {
             longest_rejections,
             longest_rejections_chain,
             effective_samples: shares.of_blocks().and_then(|shares| effective_sample_size(&shares)),
+            agreement: agreements
+                .iter()
+                .map(|(class, agreement)| ClassAgreement {
+                    class: render.class_name(*class),
+                    share: shares.mean(*class),
+                    agreement: *agreement,
+                })
+                .collect(),
             disagreements: disagreements(render, &shares, &agreements),
             missed: missed(render, &shares),
             against_bootstrap: against_bootstrap(render, &shares),
@@ -151,7 +175,7 @@ impl Findings {
             ));
             return warnings;
         }
-        if self.distinct_seeds < self.chains as usize {
+        if self.distinct_seeds < self.chains as usize / 2 {
             warnings.push(format!(
                 "{} chains start from only {} different samples: light is hard to find here; raise --bootstrap",
                 self.chains, self.distinct_seeds
@@ -199,14 +223,14 @@ fn worst(findings: &[ClassFinding]) -> Option<&ClassFinding> {
     findings.iter().min_by(|a, b| a.p.total_cmp(&b.p))
 }
 
-/// The mean of the groups' b, and its interval; that of the one group where there is no other.
-fn normalization(b: &[f64], alone: [f64; 2]) -> (f64, [f64; 2]) {
+/// The mean of the groups' b, and its interval.
+fn normalization(b: &[f64]) -> (f64, Option<[f64; 2]>) {
     let Estimate { mean, error } = Estimate::of(b);
-    if b.len() < 2 {
-        return (mean, alone);
-    }
-    let [low, high] = t_interval(mean, error, (b.len() - 1) as f64, 0.95);
-    (mean, [low.max(0.0), high])
+    let interval = (b.len() > 1).then(|| {
+        let [low, high] = t_interval(mean, error, (b.len() - 1) as f64, 0.95);
+        [low.max(0.0), high]
+    });
+    (mean, interval)
 }
 
 fn longest_rejections(render: &ChainRender) -> (u32, u32) {
@@ -303,7 +327,11 @@ impl Shares {
     }
 
     /// How groups agree in the classes that were visited often enough.
-    fn agreements(&self) -> Vec<(usize, Agreement)> {
+    fn agreements(&self, chains: u32) -> Vec<(usize, Agreement)> {
+        // Batches have to be equally large, or nearly so.
+        if (chains as usize) < BATCHES || (!(chains as usize).is_multiple_of(BATCHES) && chains < 256) {
+            return Vec::new();
+        }
         let often = (0..VISIT_CLASSES).filter(|&class| self.mean(class) * self.batch_visits >= LEAST_VISITS);
         let agreement = |class: usize| {
             let batches: Vec<f64> = self
@@ -366,7 +394,13 @@ fn against_bootstrap(render: &ChainRender, shares: &Shares) -> Vec<ClassFinding>
     let freedom = [(shares.groups.max(2) - 1) as f64; 2];
     let compared: Vec<_> = (0..VISIT_CLASSES)
         .map(|class| (class, Estimate::of(&shares.of_group(class)), share(class)))
-        .filter(|(_, chains, bootstrap)| chains.mean.max(bootstrap.mean) >= NOTABLE_SHARE)
+        // Rare classes are far from normal: those that groups seldom visit, and those that bootstraps do not tell from none.
+        .filter(|(_, chains, bootstrap)| {
+            let share = chains.mean.max(bootstrap.mean);
+            share >= NOTABLE_SHARE
+                && share * shares.batch_visits * BATCHES as f64 >= MISSED_VISITS
+                && bootstrap.mean >= RESOLVED * bootstrap.error
+        })
         .map(|(class, chains, bootstrap)| (class, chains, bootstrap, compare(chains, bootstrap, freedom)))
         .collect();
     let tests = compared.len();

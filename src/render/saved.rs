@@ -15,6 +15,9 @@ use std::fmt::Write;
 /// What a saved render begins with: its kind and version.
 const KIND: &[u8; 24] = b"chainlight saved render1";
 
+/// Steps beyond this are those of no render, and would be keys of bootstraps.
+const LAST_STEP: u64 = 1 << 62;
+
 /// Why a saved render cannot go on.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum SavedRenderError {
@@ -154,7 +157,11 @@ impl Render {
         let mut saved = open(bytes)?;
         check_identity(&mut saved, &identity(&self.scene, &self.plan, self.seed))?;
         let steps = saved.number()?;
-        self.film.restore(saved.list()?)?;
+        let film = saved.list()?;
+        if !saved.bytes.is_empty() || steps > LAST_STEP {
+            return Err(SavedRenderError::Damaged);
+        }
+        self.film.restore(film)?;
         self.steps = steps;
         Ok(())
     }
@@ -192,8 +199,14 @@ impl ChainRender {
         let mut saved = open(bytes)?;
         check_identity(&mut saved, &identity(&self.scene, &self.plan, self.run.seed()))?;
         let steps = saved.number()?;
+        let counts = self.run.counts();
+        let samples = u64::from(counts.rounds) * u64::from(counts.chains);
         for start in &mut self.run.starts {
             restore_start(&mut saved, start)?;
+            let Normalization { b, samples: found, .. } = start.normalization;
+            if !(b >= 0.0 && b.is_finite() && found == samples) {
+                return Err(SavedRenderError::Damaged);
+            }
         }
         for film in &self.films {
             let restored = GroupFilm::load(saved.list()?)?;
@@ -212,6 +225,9 @@ impl ChainRender {
             }
         });
         outcome?;
+        if !saved.bytes.is_empty() || steps > LAST_STEP || !self.run.states_are_sound(self.scene.max_depth) {
+            return Err(SavedRenderError::Damaged);
+        }
         self.run.steps = steps;
         self.run.set_units();
         Ok(())

@@ -69,7 +69,8 @@ fn save_counters(out: &mut Writer, counters: Counters) {
     for number in [steps, decisions, rays, segments, vertices, non_finite] {
         out.number(number);
     }
-    let (chain, step) = first_non_finite.unwrap_or((u32::MAX, u64::MAX));
+    out.number(u64::from(first_non_finite.is_some()));
+    let (chain, step) = first_non_finite.unwrap_or_default();
     out.number(u64::from(chain));
     out.number(step);
 }
@@ -85,8 +86,8 @@ fn restore_counters(saved: &mut Reader<'_>) -> Result<Counters, CutOff> {
         non_finite: next()?,
         first_non_finite: None,
     };
-    let (chain, step) = (next()?, next()?);
-    if counters.non_finite > 0 {
+    let (known, chain, step) = (next()?, next()?, next()?);
+    if known != 0 {
         counters.first_non_finite = u32::try_from(chain).ok().map(|chain| (chain, step));
     }
     Ok(counters)

@@ -105,8 +105,8 @@ pub enum ReplayError {
     #[diagnostic(transparent)]
     Render(#[from] RenderError),
     /// The technique leaves no path behind.
-    #[error("pt-reference leaves no path behind to look at")]
-    #[diagnostic(help("replay pt: with the same seed it draws the same paths, bit for bit"))]
+    #[error("techniques that run depth first leave no path behind to look at")]
+    #[diagnostic(help("replay pt, or pssmlt: with the same seed they draw the same paths, bit for bit"))]
     NoTables,
     /// Steps are counted in 63 bits; the highest bit marks the bootstrap's random numbers.
     #[error("there is no step {step}: steps are 0 to {}", LAST_STEP)]
@@ -138,7 +138,7 @@ pub fn replay(
     progress: &(dyn Fn(Part, f64) + Sync),
 ) -> Result<Replay, ReplayError> {
     let Moment { seed, chain, step } = moment;
-    if plan.technique == Technique::PtReference {
+    if matches!(plan.technique, Technique::PtReference | Technique::PssmltReference) {
         return Err(ReplayError::NoTables);
     }
     if step > LAST_STEP {

@@ -34,7 +34,7 @@ pub struct Chosen {
     /// The probability of choosing it in the proposal, for the way back.
     pub probability_back: f64,
     /// The uniform number that chose it.
-    pub uniform: f32,
+    pub uniform: f64,
 }
 
 /// What was proposed.
@@ -120,7 +120,7 @@ pub(super) fn chosen(lone: &mut LoneChain, plan: &Plan, before: &State) -> Optio
     let world = &mut lone.world;
     let number = world.at::<ChosenMutation, ChainTable>(0)? as usize;
     let proposed = world.at::<ProposedClass, ChainTable>(0)?;
-    let uniform = key(world)?.stream(Purpose::MUTATION, 0).next_f32();
+    let uniform = key(world)?.stream(Purpose::MUTATION, 0).next_f64();
     let mutations = Mutations::new(&plan.chains.as_ref()?.mutations);
     Some(Chosen {
         number,

@@ -23,7 +23,7 @@ pub fn choose_mutation(
     let (chosen, list) = (chosen.rows(), list.rows());
     let mut counts = [0; MAX_MUTATIONS];
     for chain in 0..place.chains as usize {
-        let u = keys.at(chain).stream(Purpose::MUTATION, 0).next_f32();
+        let u = keys.at(chain).stream(Purpose::MUTATION, 0).next_f64();
         let number = mutations.choose(StateClass(classes.at(chain)), u);
         chosen.put(chain, number as u32);
         counts[number] += 1;

@@ -126,7 +126,7 @@ pub fn mutate_depth_first(
         let global = global_chain(place, chain);
         let key = StreamKey::new(place.seed, global, place.step);
         let left = StateClass(states.classes.at(chain));
-        let number = mutations.choose(left, key.stream(Purpose::MUTATION, 0).next_f32());
+        let number = mutations.choose(left, key.stream(Purpose::MUTATION, 0).next_f64());
         // A plan has none that cannot.
         let Some(mutation) = mutations.depth_first(number) else {
             continue;

@@ -1,6 +1,7 @@
 //! Chains right after their start: ten mutations per pixel, over 200 runs with sixteen chains per group, and 100 with others.
 //!
-//! Seeds are resampled from a bootstrap in proportion to f, and b comes from the same samples, so the picture is unbiased
+//! Seeds are resampled from a bootstrap in proportion to f, and groups count by the b of those same samples, so the picture is unbiased (but for the bias of a ratio
+//! over all groups, one over the number of their samples)
 //! after any number of steps, from the first on: no burn-in is thrown away. Held here: block means are unbiased with one
 //! chain per group, with 16 and with 64; b is; and the bounds that are stated with a picture (of b, of the picture's error,
 //! of single block means) cover the truth about as often as they say.
@@ -9,12 +10,12 @@
 //! to less than 1e-3, where one run is off by ten per cent or more. Family-wise significance is 1 %. A share of 200 runs near
 //! 0.95 has a standard error of 0.015, so 0.90 and 0.99 are 3.2 and 2.6 of them off.
 
-use crate::support::chains::{Chains, films};
+use crate::support::chains::Chains;
 use crate::support::reference::{SIZE, reference_picture};
 use crate::support::scenes::box_filtered;
 use crate::support::verdict::{Family, POWER, say};
 use chainlight::chain::Target;
-use chainlight::film::{BlockGrid, block_means};
+use chainlight::film::BlockGrid;
 use chainlight::path::ChainTable;
 use chainlight::render::ChainRender;
 use chainlight::scene::Scene;
@@ -72,11 +73,8 @@ fn run(scene: &Arc<Scene>, chains: u32, seed: u64, spoil: fn(&ChainRender)) -> R
     let mut render = Chains::new(GROUPS, chains, bootstrap).seeded(seed).start(scene);
     spoil(&render);
     render.run.burst(render.steps_for(MUTATIONS_PER_PIXEL), &|_| {});
-    let scales = render.scales();
-    let row = |(film, scale): (_, &f64)| block_means(film, &grid(), *scale).expect("a film of the grid's size");
-    let rows: Vec<Vec<f64>> = films(&render).iter().zip(&scales).map(row).collect();
     Run {
-        means: GroupMeans::from_rows(&rows).expect("finite means"),
+        means: render.group_block_means(&grid()).expect("finite means"),
         b: Estimate::of(&render.run.normalizations()),
     }
 }
@@ -241,4 +239,53 @@ fn covers_as_stated(runs: &[Run]) {
     for (name, share) in [("b", b(0.5)), ("error", error(0.5)), ("blocks", blocks(0.5))] {
         assert!(share < 0.85, "{name}: halved bounds still cover {share}");
     }
+}
+
+/// A dim half of the film, and a light as bright in all that fills a thousandth of it: most groups' bootstraps see only the
+/// dim half, some see the light, and a few nothing but black.
+const RARE: &str = r#"(version: 1, settings: (max_depth: 1),
+    camera: Perspective(origin: (0, 0, 2), target: (0, 0, 0), fov: 53.13010235), film: (width: 16, height: 16),
+    materials: {"m": Diffuse(reflectance: (0, 0, 0))},
+    shapes: [
+        (shape: Quad(corner: (-1, -1, 0), edge_u: (1, 0, 0), edge_v: (0, 2, 0)), material: "m", emission: (2, 2, 2)),
+        (shape: Quad(corner: (0.5, 0.5, 0), edge_u: (0.0632, 0, 0), edge_v: (0, 0.0632, 0)), material: "m",
+            emission: (1000, 1000, 1000)),
+    ])"#;
+
+/// What the film's left half is, and what its mean is, exactly.
+const RARE_TRUTH: [f64; 2] = [2.0, 1.0 + 1000.0 * 0.0632 * 0.0632 / 4.0];
+
+#[test]
+fn groups_count_by_what_their_bootstraps_found() {
+    let scene = crate::support::scenes::inline(RARE, 16);
+    let (mut dim, mut mean) = (Vec::new(), Vec::new());
+    for seed in 0..40 {
+        let mut render = Chains::new(128, 16, 16).seeded(90_000 + seed).start(&scene);
+        let without_light = render
+            .run
+            .starts()
+            .iter()
+            .filter(|start| start.distinct_seeds == 0)
+            .count();
+        assert!(
+            seed > 0 || render.run.starts().iter().any(|start| start.distinct_seeds > 0),
+            "{without_light}"
+        );
+        render.run.burst(40, &|_| {});
+        let picture = chainlight::render::Rendering::picture(&render);
+        let value = |pixel: usize| f64::from(picture.rgb[pixel].g);
+        let left = (0..256).filter(|pixel| pixel % 16 < 8).map(value).sum::<f64>() / 128.0;
+        dim.push(left);
+        mean.push((0..256).map(value).sum::<f64>() / 256.0);
+    }
+    let family = Family { tests: 2 };
+    family.is("the dim half", Estimate::of(&dim), RARE_TRUTH[0], 2e-3, 0.1);
+    family.is("the whole film", Estimate::of(&mean), RARE_TRUTH[1], 2e-3, 0.15);
+    // With a b of its own for every group, the dim half came out three quarters too bright.
+    family.is_not(
+        "the dim half, too bright",
+        Estimate::of(&dim),
+        RARE_TRUTH[0] / 1.25,
+        2e-3,
+    );
 }

@@ -47,8 +47,8 @@ fn a_step_beyond_all_is_refused() {
 fn the_depth_first_baseline_is_answered_with_its_twin() {
     let scene = scene();
     insta::assert_snapshot!(refusal(&scene, &Plan::new(&scene, Technique::PtReference, None), 0, 0), @"
-    pt-reference leaves no path behind to look at
-    replay pt: with the same seed it draws the same paths, bit for bit
+    techniques that run depth first leave no path behind to look at
+    replay pt, or pssmlt: with the same seed they draw the same paths, bit for bit
     ");
 }
 
