@@ -29,6 +29,8 @@ impl Purpose {
     pub const PERTURB: Self = Self(6);
     /// Choice of the seeds among the samples of a group's bootstrap.
     pub const RESAMPLE: Self = Self(7);
+    /// Where on the lens.
+    pub const LENS: Self = Self(8);
 
     /// A purpose of a system outside this crate, by a name that no other system uses: a hash of it (FNV-1a), apart from all
     /// of the above.
