@@ -6,6 +6,9 @@ use crate::sampling::{Purpose, StreamKey};
 use crate::scene::Scene;
 use glam::Vec2;
 
+/// The numbers that choose the centre of a lens: those of cameras that have no aperture.
+pub const LENS_CENTER: [f32; 2] = [0.5, 0.5];
+
 /// The numbers that choose a light and a point on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightDraw {
@@ -17,6 +20,8 @@ pub struct LightDraw {
 
 /// Where a path's numbers come from, vertex by vertex. Each is in [0, 1), and asked for at most once.
 pub trait PathDraws {
+    /// For choosing a point of the lens.
+    fn lens(&mut self) -> [f32; 2];
     /// Says that the path has reached a vertex at `depth` that may scatter: what is asked for next is for that vertex.
     fn reach(&mut self, depth: u32) {
         let _ = depth;
@@ -36,6 +41,10 @@ pub trait PathDraws {
 pub struct KeyedDraws(pub StreamKey);
 
 impl PathDraws for KeyedDraws {
+    #[inline]
+    fn lens(&mut self) -> [f32; 2] {
+        self.0.stream(Purpose::LENS, 0).next_pair()
+    }
     #[inline]
     fn light(&mut self, depth: u32) -> LightDraw {
         let mut stream = self.0.stream(Purpose::LIGHT, depth);

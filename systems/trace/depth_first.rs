@@ -83,8 +83,13 @@ impl<'a> Tracer<'a> {
     /// it.
     pub(in super::super) fn trace(&mut self, film: Vec2, draws: &mut impl PathDraws) -> (Rgb, StateClass) {
         let scene = self.scene;
-        let mut direction = scene.camera.direction(film);
-        let mut position = scene.camera.origin();
+        let lens = if scene.camera.has_aperture() {
+            draws.lens()
+        } else {
+            LENS_CENTER
+        };
+        let ray = scene.camera.ray(film, lens);
+        let (mut position, mut direction) = (ray.origin, ray.direction);
         let mut origin = position;
         let (mut radiance, mut throughput, mut judged, mut scale) = (Rgb::BLACK, Rgb::ONE, Rgb::ONE, 1.0);
         let (mut density, mut kind) = (0.0, VERTEX_LENS);
