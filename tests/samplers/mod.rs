@@ -4,6 +4,7 @@
 
 mod diffuse;
 mod discrete;
+mod emission;
 mod emitters;
 mod light_choice;
 mod lights;
