@@ -88,7 +88,11 @@ impl TilePlace {
     #[inline]
     #[must_use]
     pub const fn stream_depth(&self, path: usize, depth: u32) -> u32 {
-        if self.starts_at_light(path) { depth | LIGHT_SUBPATH } else { depth }
+        if self.starts_at_light(path) {
+            depth | LIGHT_SUBPATH
+        } else {
+            depth
+        }
     }
 
     /// The key of the chain's random streams, from the bits that its column keeps.
