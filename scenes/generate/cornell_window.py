@@ -5,7 +5,7 @@ from solids import chamfered_box, panel
 
 WIDTH, HEIGHT, NEAR, FAR = 552.8, 548.8, -850.0, 559.2
 # The window in the wall at x = WIDTH, and how thick that wall is.
-SILL, LINTEL, LEFT, RIGHT, DEPTH = 190.0, 480.0, 90.0, 400.0, 45.0
+SILL, LINTEL, LEFT, RIGHT, DEPTH = 280.0, 510.0, 90.0, 420.0, 45.0
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
@@ -35,7 +35,7 @@ def bars():
     """A wooden frame in the hole, with one upright and one level bar. They stick a little into the reveal."""
     mesh = Mesh()
     near, far, into, bevel = WIDTH + 14, WIDTH + 34, 2.0, 1.5
-    middle, level = (LEFT + RIGHT) / 2, SILL + 0.62 * (LINTEL - SILL)
+    middle, level = (LEFT + RIGHT) / 2, SILL + 0.6 * (LINTEL - SILL)
     for z in (LEFT, RIGHT):
         low, high = (z - into, z + 14) if z == LEFT else (z - 14, z + into)
         chamfered_box(mesh, (near, SILL - into, low), (far, LINTEL + into, high), bevel)

@@ -48,6 +48,34 @@ def light(description, directory):
     raise Unsupported(f"light {name}")
 
 
+def sun_and_sky(descriptions):
+    """Mitsuba's `sunsky` for our `Sun` and `Sky`, of which there may be one each under the same sky."""
+    parts = {"type": "sunsky", "sun_scale": 0.0, "sky_scale": 0.0}
+    skies = set()
+    for entry in descriptions:
+        f = entry.fields
+        if entry.name == "Sun":
+            take(f, ["direction"], ["turbidity", "scale"])
+            towards, parts["sun_scale"] = f["direction"], float(f.get("scale", 1))
+            # Our sun's angular diameter.
+            parts["sun_aperture"] = 2 * 0.2665
+        else:
+            take(f, ["sun_direction"], ["turbidity", "albedo", "scale"])
+            towards, parts["sky_scale"] = f["sun_direction"], float(f.get("scale", 1))
+            parts["albedo"] = rgb(f.get("albedo", [0.3] * 3))
+        skies.add((tuple(towards), float(f.get("turbidity", 3))))
+    if len(skies) != 1 or len(descriptions) > 2:
+        raise Unsupported("suns and skies that differ in direction or turbidity")
+    [(towards, turbidity)] = skies
+    # Mitsuba's sky has its zenith along z in a frame of its own, and takes the sun in the world's.
+    x, y, z = unit(towards)
+    zenith = rotation([1, 0, 0], -90)
+    return parts | {"sun_direction": [x, y, z], "turbidity": turbidity, "to_world": to_world(zenith)}
+
+
 def lights(descriptions, directory):
     """All of them, as the parts of a scene; Mitsuba knows one environment alone."""
-    return {f"light{index}": light(entry, directory) for index, entry in enumerate(descriptions)}
+    skies = [entry for entry in descriptions if entry.name in ("Sun", "Sky")]
+    others = [entry for entry in descriptions if entry.name not in ("Sun", "Sky")]
+    parts = {f"light{index}": light(entry, directory) for index, entry in enumerate(others)}
+    return parts | ({"sky": sun_and_sky(skies)} if skies else {})
