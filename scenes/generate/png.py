@@ -1,4 +1,4 @@
-"""Writes 8-bit RGB pictures as PNG files (W3C PNG specification), with no library beyond Python's own."""
+"""Writes 8-bit RGB and 16-bit grey pictures as PNG files (W3C PNG specification), with no library beyond Python's own."""
 
 import struct
 import zlib
@@ -13,15 +13,27 @@ def chunk(kind, data):
 
 def write(name, width, height, color):
     """Writes scenes/textures/NAME.png; `color(x, y)` gives sRGB values in 0..1, row 0 at the top."""
-    rows, before = [], bytes(3 * width)
+
+    def pixel(x, y):
+        return bytes(min(255, max(0, round(255 * c))) for c in color(x, y))
+
+    save(name, width, height, (8, 2), pixel)
+
+
+def write_grey(name, width, height, value):
+    """The same with one number in 0..1 a pixel, in 65536 steps."""
+    save(name, width, height, (16, 0), lambda x, y: struct.pack(">H", min(65535, max(0, round(65535 * value(x, y))))))
+
+
+def save(name, width, height, kind, pixel):
+    rows, before = [], None
     for y in range(height):
-        row = bytearray()
-        for x in range(width):
-            row += bytes(min(255, max(0, round(255 * c))) for c in color(x, y))
+        row = b"".join(pixel(x, y) for x in range(width))
+        before = before or bytes(len(row))
         # Each byte as the difference to the one above (filter type 2), which compresses better.
         rows.append(b"\x02" + bytes((a - b) & 255 for a, b in zip(row, before)))
-        before = bytes(row)
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+        before = row
+    header = struct.pack(">IIBBBBB", width, height, *kind, 0, 0, 0)
     data = zlib.compress(b"".join(rows), 9)
     TEXTURES.mkdir(exist_ok=True)
     path = TEXTURES / f"{name}.png"

@@ -100,7 +100,38 @@ def painting():
     png.write("painting", width, height, color)
 
 
+def land(u, v):
+    """The height of the island at (u, v) in 0..1, sea level at 0.25."""
+    x, y = 2 * u - 1, 2 * v - 1
+    away = math.hypot(x + 0.25 * (noise(u * 3, v * 3, 60) - 0.5), 1.15 * y + 0.3 * (noise(u * 4, v * 4, 61) - 0.5))
+    slope = max(0.0, 1 - (away / 0.92) ** 2)
+    rough = 0.0
+    for octave in range(5):
+        step = 3 * 2**octave
+        # Ridges: folded noise.
+        rough += 0.5**octave * (1 - abs(2 * noise(u * step, v * step, 62 + octave) - 1))
+    return min(1.0, slope * (0.20 + 0.42 * rough * slope**0.5) + 0.05)
+
+
+def island():
+    size = 96
+    png.write_grey("island-heights", size, size, lambda x, y: land(x / (size - 1), 1 - y / (size - 1)))
+
+    def color(x, y):
+        u, v = (x + 0.5) / 128, 1 - (y + 0.5) / 128
+        height = land(u, v) + 0.05 * (noise(u * 40, v * 40, 80) - 0.5)
+        steep = math.hypot(land(u + 0.01, v) - land(u - 0.01, v), land(u, v + 0.01) - land(u, v - 0.01)) / 0.02
+        bands = ((0.25, (0.74, 0.68, 0.50)), (0.31, (0.36, 0.45, 0.22)), (0.52, (0.28, 0.36, 0.20)), (0.68, (0.46, 0.42, 0.38)))
+        value = bands[0][1]
+        for (low, _), (high, tone) in zip(bands, bands[1:]):
+            value = mix(value, tone, max(0.0, min(1.0, (height - low) / (high - low) * 2 - 0.6)))
+        return quantized(mix(value, (0.45, 0.41, 0.37), max(0.0, min(1.0, steep / 1.2 - 0.9))))
+
+    png.write("island-colors", 128, 128, color)
+
+
 if __name__ == "__main__":
+    island()
     wood()
     boards()
     painting()

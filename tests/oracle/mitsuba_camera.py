@@ -37,10 +37,10 @@ def camera(description, width, height, sampler):
     parts = {"film": film(width, height), "sampler": {"type": sampler}}
     if name == "Orthographic":
         take(f, ["origin", "target", "up", "height"])
-        # Mitsuba's film is two wide before the transform. The plane in front is at the camera: rays start at it.
+        # Mitsuba's film is two wide before the transform.
         half = float(f["height"]) * width / height / 2
         scaled = to_world(np.diag([half, half, 1.0, 1.0]))
-        return parts | {"type": "orthographic", "near_clip": 0.0, "to_world": looking(f) @ scaled}
+        return parts | {"type": "orthographic", "near_clip": 1e-4, "to_world": looking(f) @ scaled}
     if name not in ("Perspective", "ThinLens"):
         raise Unsupported(f"camera {name}")
     lens = ["aperture_radius"] if name == "ThinLens" else []

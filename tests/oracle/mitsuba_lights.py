@@ -1,9 +1,18 @@
 """Mitsuba's counterparts of the lights that are no shapes."""
 
+import math
+from pathlib import Path
+
 import mitsuba as mi
 import numpy as np
 
-from mitsuba_common import Unsupported, frame, rgb, rotation, take, to_world, unit, vector
+from mitsuba_common import Unsupported, frame, perpendicular, rgb, rotation, take, to_world, unit, vector
+
+# Cubics of the sun's radiance: turbidity, segment of its elevation, channel, power.
+SUN = Path(__file__).resolve().parents[2] / "src" / "light" / "hosek_wilkie" / "sun.f32"
+SUN_RADIUS = 0.2665
+# How far away the sun's disk stands, in scene units.
+FAR = 1e7
 
 
 def spot(f):
@@ -12,7 +21,10 @@ def spot(f):
     along = unit(target - origin)
     up = [1.0, 0.0, 0.0] if abs(along[0]) < 0.9 else [0.0, 1.0, 0.0]
     look = mi.ScalarTransform4f().look_at(origin=origin.tolist(), target=target.tolist(), up=up)
-    cutoff, beam = float(f.get("cutoff", 20)), float(f.get("beam", 15))
+    cutoff = float(f.get("cutoff", 20))
+    beam = float(f.get("beam", 0.75 * cutoff))
+    if beam < cutoff:
+        raise Unsupported("a spot with a soft edge: Mitsuba's falls off otherwise")
     return {"type": "spot", "to_world": look, "intensity": rgb(f["intensity"]), "cutoff_angle": cutoff, "beam_width": beam}
 
 
@@ -45,37 +57,50 @@ def light(description, directory):
         return {"type": "directional", "direction": unit(f["direction"]).tolist(), "irradiance": rgb(f["irradiance"])}
     if name == "Environment":
         return environment(f, directory)
+    if name in ("Sun", "Sky"):
+        return {"Sun": sun, "Sky": sky}[name](f)
     raise Unsupported(f"light {name}")
 
 
-def sun_and_sky(descriptions):
-    """Mitsuba's `sunsky` for our `Sun` and `Sky`, of which there may be one each under the same sky."""
-    parts = {"type": "sunsky", "sun_scale": 0.0, "sky_scale": 0.0}
-    skies = set()
-    for entry in descriptions:
-        f = entry.fields
-        if entry.name == "Sun":
-            take(f, ["direction"], ["turbidity", "scale"])
-            towards, parts["sun_scale"] = f["direction"], float(f.get("scale", 1))
-            # Our sun's angular diameter.
-            parts["sun_aperture"] = 2 * 0.2665
-        else:
-            take(f, ["sun_direction"], ["turbidity", "albedo", "scale"])
-            towards, parts["sky_scale"] = f["sun_direction"], float(f.get("scale", 1))
-            parts["albedo"] = rgb(f.get("albedo", [0.3] * 3))
-        skies.add((tuple(towards), float(f.get("turbidity", 3))))
-    if len(skies) != 1 or len(descriptions) > 2:
-        raise Unsupported("suns and skies that differ in direction or turbidity")
-    [(towards, turbidity)] = skies
-    # Mitsuba's sky has its zenith along z in a frame of its own, and takes the sun in the world's.
-    x, y, z = unit(towards)
-    zenith = rotation([1, 0, 0], -90)
-    return parts | {"sun_direction": [x, y, z], "turbidity": turbidity, "to_world": to_world(zenith)}
+def sun(f):
+    """A far disk of the sun's angular radius, as bright as ours: Mitsuba's own sun differs by some per cent.
+
+    It is so far away that its parallax over a scene is nothing. Its radiance rests on our table and is not checked.
+    """
+    take(f, ["direction"], ["turbidity", "scale"])
+    towards = unit(f["direction"])
+    elevation = math.asin(towards[1]) / (math.pi / 2)
+    turbidity = float(f.get("turbidity", 3))
+    segment = min(int(elevation ** (1 / 3) * 45), 44)
+    powers = ((elevation - (segment / 45) ** 3) * math.pi / 2) ** np.arange(4)
+    table = np.fromfile(SUN, "<f4").reshape(10, 45, 3, 4)[:, segment].astype(float) @ powers
+    low = min(int(turbidity), 9)
+    radiance = table[low - 1] + (turbidity - low) * (table[low] - table[low - 1])
+    radius = FAR * math.tan(math.radians(SUN_RADIUS))
+    x, y = perpendicular(-towards)
+    return {
+        "type": "disk",
+        "to_world": to_world(frame(radius * x, radius * y, -towards, FAR * towards)),
+        "bsdf": {"type": "diffuse", "reflectance": rgb([0, 0, 0])},
+        "emitter": {"type": "area", "radiance": rgb(np.maximum(radiance, 0) * float(f.get("scale", 1)))},
+    }
+
+
+def sky(f):
+    """Mitsuba's `sunsky` without the sun: the same tables, some thousandths apart."""
+    take(f, ["sun_direction"], ["turbidity", "albedo", "scale"])
+    return {
+        "type": "sunsky",
+        "sun_scale": 0.0,
+        "sky_scale": float(f.get("scale", 1)),
+        "turbidity": float(f.get("turbidity", 3)),
+        "albedo": rgb(f.get("albedo", [0.3] * 3)),
+        "sun_direction": unit(f["sun_direction"]).tolist(),
+        # Its zenith is along z in a frame of its own; the sun's direction is the world's.
+        "to_world": to_world(rotation([1, 0, 0], -90)),
+    }
 
 
 def lights(descriptions, directory):
     """All of them, as the parts of a scene; Mitsuba knows one environment alone."""
-    skies = [entry for entry in descriptions if entry.name in ("Sun", "Sky")]
-    others = [entry for entry in descriptions if entry.name not in ("Sun", "Sky")]
-    parts = {f"light{index}": light(entry, directory) for index, entry in enumerate(others)}
-    return parts | ({"sky": sun_and_sky(skies)} if skies else {})
+    return {f"light{index}": light(entry, directory) for index, entry in enumerate(descriptions)}

@@ -22,12 +22,12 @@ METALS = Path(__file__).resolve().parents[2] / "src" / "material" / "metals.rs"
 
 
 def metal(name):
-    """eta and k of a metal by its name, as this program has them."""
-    triple = r"Rgb::new\(\s*([-0-9.eE]+)\s*,\s*([-0-9.eE]+)\s*,\s*([-0-9.eE]+)\s*,?\s*\)"
-    found = re.search(rf'"{re.escape(name)}".*?{triple}.*?{triple}', METALS.read_text(encoding="utf-8"), re.S)
-    if found is None:
+    """eta and k of a metal by its symbol, as this program has them."""
+    triple = r"\[([-0-9._eE]+), ([-0-9._eE]+), ([-0-9._eE]+)\]"
+    row = re.search(rf'metal\("{re.escape(name)}", "[^"]*", {triple}, {triple}\)', METALS.read_text(encoding="utf-8"))
+    if row is None:
         raise Unsupported(f"metal {name}")
-    values = [float(v) for v in found.groups()]
+    values = [float(v.replace("_", "")) for v in row.groups()]
     return {"eta": rgb(values[:3]), "k": rgb(values[3:])}
 
 
@@ -47,11 +47,14 @@ def linear_texels(path, encoding):
     return values.astype(np.float32)
 
 
-def scaled(scale):
-    return to_world(np.diag([float(scale[0]), float(scale[1]), 1.0, 1.0]))
+def scaled(scale, uv):
+    return to_world(np.diag([float(scale[0]), float(scale[1]), 1.0, 1.0]) @ uv)
 
 
-def texture(description, directory):
+def texture(description, directory, uv):
+    """`uv`: from Mitsuba's texture coordinates of the shape to ours, or `None` where no linear map is."""
+    if uv is None:
+        raise Unsupported(f"texture {description.name} on a shape whose texture coordinates differ")
     f = description.fields
     if description.name == "Checkerboard":
         take(f, [], ["even", "odd", "scale"])
@@ -61,7 +64,7 @@ def texture(description, directory):
             "color0": rgb(f.get("even", [0.4] * 3)),
             "color1": rgb(f.get("odd", [0.2] * 3)),
             # Mitsuba's unit square holds two by two cells.
-            "to_uv": scaled([scale[0] / 2, scale[1] / 2]),
+            "to_uv": scaled([scale[0] / 2, scale[1] / 2], uv),
         }
     if description.name == "Bitmap":
         take(f, ["file"], ["encoding", "filter", "wrap", "scale"])
@@ -73,21 +76,27 @@ def texture(description, directory):
             "raw": True,
             "filter_type": named.get("filter", "Bilinear").lower(),
             "wrap_mode": named.get("wrap", "Repeat").lower(),
-            "to_uv": scaled(f.get("scale", [1, 1])),
+            "to_uv": scaled(f.get("scale", [1, 1]), uv),
         }
     raise Unsupported(f"texture {description.name}")
 
 
 class Materials:
-    """Builds materials by name from the `materials` and `textures` blocks of a scene."""
+    """Builds materials by name from the `materials` and `textures` blocks of a scene.
 
-    def __init__(self, description, directory):
+    `uv` is the map from Mitsuba's texture coordinates of the shape that wears them to ours.
+    """
+
+    def __init__(self, description, directory, uv):
+        self.uv = uv
         self.materials = description.get("materials", {})
         self.textures = description.get("textures", {})
         self.directory = directory
 
     def color(self, value):
-        return texture(self.textures[value], self.directory) if isinstance(value, str) else rgb(value)
+        if isinstance(value, str):
+            return texture(self.textures[value], self.directory, self.uv)
+        return rgb(value)
 
     def index(self, f):
         """A metal's complex index of refraction."""

@@ -21,7 +21,7 @@ import ron
 from mitsuba_camera import camera
 from mitsuba_common import Unsupported, rgb, take, transform
 from mitsuba_materials import Materials
-from mitsuba_shapes import shape
+from mitsuba_shapes import shape, texture_map
 
 # Russian roulette starts this deep: never.
 NO_ROULETTE = 1_000_000
@@ -41,13 +41,12 @@ def scene(path, width, height, sampler="independent"):
     if description["version"] != 1:
         raise Unsupported(f"version {description['version']}")
     directory = path.parent
-    materials = Materials(description, directory)
     parts = {"type": "scene", "sensor": camera(description["camera"], width, height, sampler)}
     parts |= mitsuba_lights.lights(description.get("lights", []), directory)
     for index, entry in enumerate(description["shapes"]):
         take(entry, ["shape", "material"], ["name", "emission", "transform"])
         part = shape(entry["shape"], transform(entry.get("transform", [])), directory)
-        part["bsdf"] = materials.named(entry["material"])
+        part["bsdf"] = Materials(description, directory, texture_map(entry["shape"])).named(entry["material"])
         if "emission" in entry:
             part["emitter"] = {"type": "area", "radiance": rgb(entry["emission"])}
         parts[f"shape{index}"] = part

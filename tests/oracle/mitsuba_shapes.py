@@ -14,6 +14,12 @@ from mitsuba_common import Unsupported, frame, perpendicular, take, to_world, un
 from mitsuba_tessellation import height_field, torus
 
 
+# Mitsuba's longitude starts at its x axis and turns towards y, ours starts at -z and turns towards -x, with the pole at
+# y. Mitsuba's v grows from the pole down, ours up.
+SPHERE_AXES = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+UPSIDE_DOWN = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, -1.0, 1.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
+
+
 def similarity(matrix):
     """The scale of a map that keeps angles. Refuses any other."""
     linear = matrix[:3, :3]
@@ -43,18 +49,18 @@ def cuboid(f, matrix):
 
 def sphere(f, matrix):
     take(f, ["radius"], ["center"])
-    # Turns its texture coordinates too.
-    placed = frame(*(float(f["radius"]) * np.eye(3)), vector(f.get("center", [0, 0, 0])))
     similarity(matrix)
+    radius = float(f["radius"])
+    placed = frame(*(radius * SPHERE_AXES), vector(f.get("center", [0, 0, 0])))
     return {"type": "sphere", "to_world": to_world(matrix @ placed)}
 
 
 def disk(f, matrix):
-    take(f, ["center", "normal", "radius"])
+    take(f, ["normal", "radius"], ["center"])
     similarity(matrix)
     normal, radius = unit(f["normal"]), float(f["radius"])
     x, y = perpendicular(normal)
-    return {"type": "disk", "to_world": to_world(matrix @ frame(radius * x, radius * y, normal, vector(f["center"])))}
+    return {"type": "disk", "to_world": to_world(matrix @ frame(radius * x, radius * y, normal, vector(f.get("center", [0, 0, 0]))))}
 
 
 def cylinder(f, matrix):
@@ -82,12 +88,31 @@ def mesh(f, matrix, directory):
     }
 
 
+SIMPLE = {
+    "Quad": quad,
+    "Box": cuboid,
+    "Sphere": sphere,
+    "Disk": disk,
+    "Cylinder": cylinder,
+    "Torus": torus,
+}
+
+
+FROM_FILES = {"Obj": mesh, "HeightField": height_field}
+
+
 def shape(description, matrix, directory):
     """The shape, placed by `matrix` (4 x 4). Files are relative to `directory`."""
-    simple = {"Quad": quad, "Box": cuboid, "Sphere": sphere, "Disk": disk, "Cylinder": cylinder, "Torus": torus}
     name, f = description.name, description.fields
-    if name in simple:
-        return simple[name](f, matrix)
-    if name in ("Obj", "HeightField"):
-        return {"Obj": mesh, "HeightField": height_field}[name](f, matrix, directory)
+    if name in SIMPLE:
+        return SIMPLE[name](f, matrix)
+    if name in FROM_FILES:
+        return FROM_FILES[name](f, matrix, directory)
     raise Unsupported(f"shape {name}")
+
+
+def texture_map(description):
+    """From Mitsuba's texture coordinates of a shape to ours, a matrix; `None` where they are not alike."""
+    if description.name == "Sphere":
+        return UPSIDE_DOWN
+    return np.eye(4) if description.name in ("Quad", "Obj", "Torus", "HeightField") else None

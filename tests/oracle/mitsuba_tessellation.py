@@ -7,7 +7,7 @@ from pathlib import Path
 import mitsuba as mi
 import numpy as np
 
-from mitsuba_common import Unsupported, perpendicular, take, unit, vector
+from mitsuba_common import take, unit, vector
 
 
 def grid_mesh(points, normals, uvs, matrix):
@@ -21,7 +21,7 @@ def grid_mesh(points, normals, uvs, matrix):
     for i in range(rows):
         for j in range(columns):
             a = 1 + i * (columns + 1) + j
-            b, c, d = a + columns + 1, a + columns + 2, a + 1
+            b, c, d = a + 1, a + columns + 2, a + columns + 1
             for triangle in ((a, b, c), (a, c, d)):
                 lines.append("f " + " ".join(f"{k}/{k}/{k}" for k in triangle))
     with tempfile.NamedTemporaryFile("w", suffix=".obj", delete=False) as file:
@@ -40,20 +40,45 @@ def forget():
         TEMPORARY.pop().unlink()
 
 
+def axes_about(axis):
+    """The columns x, y, z of the frame of a shape that is round about y = `axis`."""
+    y = unit(axis)
+    x = unit(np.cross(y, [0.0, 0.0, 1.0] if abs(y[2]) < 0.999 else [1.0, 0.0, 0.0]))
+    return np.stack([x, y, np.cross(x, y)], 1)
+
+
 def torus(f, matrix):
-    take(f, ["center", "axis", "major_radius", "minor_radius"], ["segments"])
-    around, across = f.get("segments", [64, 32])
-    axis = unit(f["axis"])
-    x, y = perpendicular(axis)
-    major, minor = float(f["major_radius"]), float(f["minor_radius"])
-    i, j = np.meshgrid(np.arange(around + 1), np.arange(across + 1), indexing="ij")
-    phi, theta = 2 * math.pi * i / around, 2 * math.pi * j / across
-    outward = np.cos(phi)[..., None] * x + np.sin(phi)[..., None] * y
-    normals = np.cos(theta)[..., None] * outward + np.sin(theta)[..., None] * axis
-    points = vector(f["center"]) + major * outward + minor * normals
-    uvs = np.stack([i / around, j / across], -1)
-    return grid_mesh(points, normals, uvs, matrix)
+    take(f, ["major_radius", "minor_radius"], ["center", "axis", "segments"])
+    around, along = f.get("segments", [64, 32])
+    axes = axes_about(f.get("axis", [0, 1, 0]))
+    j, i = np.meshgrid(np.arange(along + 1), np.arange(around + 1), indexing="ij")
+    tube, turn = (2 * math.pi * (k % n / n - 0.5) for k, n in ((j, along), (i, around)))
+    outward = np.stack([np.sin(turn), 0 * turn, np.cos(turn)], -1)
+    normals = np.cos(tube)[..., None] * outward + np.sin(tube)[..., None] * [0.0, 1.0, 0.0]
+    points = float(f["major_radius"]) * outward + float(f["minor_radius"]) * normals
+    points = vector(f.get("center", [0, 0, 0])) + points @ axes.T
+    return grid_mesh(points, normals @ axes.T, np.stack([i / around, j / along], -1), matrix)
+
+
+def heights(f, directory):
+    """Rows along u, the one at v = 0 first."""
+    if "heights" in f:
+        return np.array(f["heights"], float)
+    values = np.array(mi.Bitmap(str(directory / f["file"])))
+    values = values / np.iinfo(values.dtype).max if values.dtype.kind == "u" else values.astype(float)
+    return (values if values.ndim == 2 else values.mean(2))[::-1]
 
 
 def height_field(f, matrix, directory):
-    raise Unsupported("height field")
+    take(f, ["edge_u", "edge_v"], ["heights", "file", "corner", "height"])
+    field = heights(f, directory)
+    rows, columns = field.shape
+    u, v = vector(f["edge_u"]), vector(f["edge_v"])
+    up = unit(np.cross(u, v)) * float(f.get("height", 1))
+    # Over both neighbours, over one at an edge.
+    slope_v, slope_u = np.gradient(field, 1 / (rows - 1), 1 / (columns - 1))
+    j, i = np.meshgrid(np.linspace(0, 1, rows), np.linspace(0, 1, columns), indexing="ij")
+    points = vector(f.get("corner", [0, 0, 0])) + i[..., None] * u + j[..., None] * v + field[..., None] * up
+    normals = np.cross(u + slope_u[..., None] * up, v + slope_v[..., None] * up)
+    normals /= np.linalg.norm(normals, axis=-1, keepdims=True)
+    return grid_mesh(points, normals, np.stack([i, j], -1), matrix)
