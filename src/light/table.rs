@@ -67,6 +67,13 @@ impl LightTable {
         false
     }
 
+    /// Whether there are lights that rays meet which leave the scene.
+    #[inline]
+    #[must_use]
+    pub fn has_infinite(&self) -> bool {
+        self.infinite().next().is_some()
+    }
+
     /// The lights that rays meet which leave the scene. They overlap: each has a radiance in every direction.
     pub fn infinite(&self) -> impl Iterator<Item = u32> {
         std::iter::empty()
