@@ -13,6 +13,7 @@ pub mod dielectric;
 pub mod diffuse;
 mod frame;
 pub mod fresnel;
+pub mod microfacet;
 mod table;
 
 pub use frame::Frame;
