@@ -2,17 +2,19 @@
 //!
 //! | parameter | meaning | unit | default |
 //! |---|---|---|---|
-//! | `eta` | real part of the index of refraction | none, >= 0 per channel | required |
-//! | `k` | absorption coefficient | none, >= 0 per channel | required |
-//! | `reflectance` | scale of the reflection | none, [0, 1] per channel | 1 |
+//! | `metal` | a metal by its symbol, such as `"Au"` ([`METALS`](super::metals::METALS)) | | this, or both of the next |
+//! | `eta` | real part of the index of refraction | none, >= 0 per channel | |
+//! | `k` | absorption coefficient | none, >= 0 per channel | |
+//! | `reflectance` | scale of the reflection, a colour or a texture | none, [0, 1] per channel | 1 |
 //! | `two_sided` | whether the back reflects like the front | | true |
 //!
 //! Use it for polished metal and, with `eta` 0 and `k` 1, for an ideal mirror. It is discrete: light through it can only
 //! be found by following the mirrored direction, so what a mirror throws onto a matt surface (a caustic) is noisy under
 //! path tracing unless the light is large.
 
-use super::{Scattered, fresnel};
+use super::{MaterialKind, Model, ScatterDraw, Scattered, Transport, fresnel};
 use crate::color::Rgb;
+use crate::texture::{Color, Shading};
 use glam::Vec3;
 
 /// One smooth metal.
@@ -23,29 +25,26 @@ pub struct Conductor {
     /// Absorption coefficient, per channel.
     pub k: Rgb,
     /// Scale of the reflection, per channel.
-    pub reflectance: Rgb,
+    pub reflectance: Color,
     /// Whether the back reflects like the front.
     pub two_sided: bool,
 }
 
-impl Conductor {
+impl Model for Conductor {
+    const KIND: MaterialKind = MaterialKind::Conductor;
+
     /// The mirrored direction; `None` on the black back of a one-sided surface.
     #[inline]
-    #[must_use]
-    pub fn sample(&self, wi: Vec3) -> Option<Scattered> {
+    fn sample(&self, at: &Shading<'_>, wi: Vec3, _: ScatterDraw, _: Transport) -> Option<Scattered> {
         if wi.z == 0.0 || (wi.z < 0.0 && !self.two_sided) {
             return None;
         }
-        let cosine = wi.z.abs();
-        let reflected = Rgb::new(
-            fresnel::conductor(cosine, self.eta.r, self.k.r),
-            fresnel::conductor(cosine, self.eta.g, self.k.g),
-            fresnel::conductor(cosine, self.eta.b, self.k.b),
-        );
+        let reflected = fresnel::conductor_rgb(wi.z.abs(), self.eta, self.k);
         Some(Scattered {
             wo: Vec3::new(-wi.x, -wi.y, wi.z),
-            ratio: self.reflectance * reflected,
+            ratio: self.reflectance.at(at) * reflected,
             density: 1.0,
+            reverse: 1.0,
             discrete: true,
             relative_ior: 1.0,
         })

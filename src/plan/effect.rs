@@ -12,6 +12,10 @@ pub enum Effect {
     DirectLight,
     /// Scattering off matt surfaces.
     DiffuseReflection,
+    /// Blurred mirrors of metal.
+    GlossyReflection,
+    /// Scattering off matt surfaces under a clear coat, and mirroring in it.
+    CoatedReflection,
     /// Mirrors of metal.
     SpecularReflection,
     /// Interfaces that reflect and refract.
@@ -20,13 +24,40 @@ pub enum Effect {
 
 impl Effect {
     /// Every effect.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 7] = [
         Self::Emission,
         Self::DirectLight,
         Self::DiffuseReflection,
+        Self::GlossyReflection,
+        Self::CoatedReflection,
         Self::SpecularReflection,
         Self::Refraction,
     ];
+
+    /// The effect that materials of a model bring.
+    #[must_use]
+    pub const fn of(kind: MaterialKind) -> Self {
+        match kind {
+            MaterialKind::Diffuse => Self::DiffuseReflection,
+            MaterialKind::RoughConductor => Self::GlossyReflection,
+            MaterialKind::Plastic => Self::CoatedReflection,
+            MaterialKind::Conductor => Self::SpecularReflection,
+            MaterialKind::Dielectric | MaterialKind::RoughDielectric => Self::Refraction,
+        }
+    }
+
+    /// Why a scatter system runs where the effect is on.
+    #[must_use]
+    pub(super) const fn reason(self) -> &'static str {
+        match self {
+            Self::DiffuseReflection => "a shape has a diffuse material",
+            Self::SpecularReflection => "a shape has a conductor material",
+            Self::GlossyReflection => "a shape has a rough conductor material",
+            Self::CoatedReflection => "a shape has a plastic material",
+            Self::Refraction => "a shape has a dielectric material",
+            Self::Emission | Self::DirectLight => "light arrives",
+        }
+    }
 
     /// The effect's name as plans print it.
     #[must_use]
@@ -35,6 +66,8 @@ impl Effect {
             Self::Emission => "emission",
             Self::DirectLight => "direct light",
             Self::DiffuseReflection => "diffuse reflection",
+            Self::GlossyReflection => "glossy reflection",
+            Self::CoatedReflection => "coated reflection",
             Self::SpecularReflection => "specular reflection",
             Self::Refraction => "refraction",
         }
@@ -93,9 +126,11 @@ fn decide(scene: &Scene, effect: Effect) -> (bool, String) {
                 (true, format!("lights can be sampled from {}", list(&used)))
             }
         }
-        Effect::DiffuseReflection => by_kind(scene, MaterialKind::Diffuse),
-        Effect::SpecularReflection => by_kind(scene, MaterialKind::Conductor),
-        Effect::Refraction => by_kind(scene, MaterialKind::Dielectric),
+        Effect::DiffuseReflection
+        | Effect::GlossyReflection
+        | Effect::CoatedReflection
+        | Effect::SpecularReflection
+        | Effect::Refraction => by_kind(scene, effect),
     }
 }
 
@@ -104,12 +139,15 @@ fn emitters(scene: &Scene) -> String {
     format!("{} emitting primitives: {}", scene.lights.len(), list(&names))
 }
 
-fn by_kind(scene: &Scene, kind: MaterialKind) -> (bool, String) {
-    let used = materials(scene, |k| k == kind);
+/// Effects that materials of some models bring.
+fn by_kind(scene: &Scene, effect: Effect) -> (bool, String) {
+    let kinds = || MaterialKind::ALL.iter().filter(|&&kind| Effect::of(kind) == effect);
+    let used = materials(scene, |kind| Effect::of(kind) == effect);
+    let names: Vec<&str> = kinds().map(|kind| kind.name()).collect();
     if used.is_empty() {
-        (false, format!("no shape has a {} material", kind.name()))
+        (false, format!("no shape has a {} material", names.join(" or ")))
     } else {
-        (true, format!("{}: {}", kind.name(), list(&used)))
+        (true, format!("{}: {}", names.join(", "), list(&used)))
     }
 }
 

@@ -68,7 +68,7 @@ def main():
     for metal, name in METALS.items():
         eta, k = (reflectance_rgb(spectrum(folder, metal, part)) for part in ("eta", "k"))
         numbers = [", ".join(rust(v) for v in rgb) for rgb in (eta, k)]
-        print(f'    ("{metal}", "{name}", [{numbers[0]}], [{numbers[1]}]),')
+        print(f'    metal("{metal}", "{name}", [{numbers[0]}], [{numbers[1]}]),')
 
 
 if __name__ == "__main__":

@@ -11,6 +11,9 @@
 
 mod beckmann;
 mod ggx;
+mod mirror;
+
+pub(super) use mirror::{above, outward};
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
