@@ -12,6 +12,10 @@ pub enum Effect {
     DirectLight,
     /// Scattering off matt surfaces.
     DiffuseReflection,
+    /// Blurred mirrors of metal.
+    GlossyReflection,
+    /// Scattering off matt surfaces under a clear coat, and mirroring in it.
+    CoatedReflection,
     /// Mirrors of metal.
     SpecularReflection,
     /// Interfaces that reflect and refract.
@@ -20,10 +24,12 @@ pub enum Effect {
 
 impl Effect {
     /// Every effect.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 7] = [
         Self::Emission,
         Self::DirectLight,
         Self::DiffuseReflection,
+        Self::GlossyReflection,
+        Self::CoatedReflection,
         Self::SpecularReflection,
         Self::Refraction,
     ];
@@ -33,8 +39,10 @@ impl Effect {
     pub const fn of(kind: MaterialKind) -> Self {
         match kind {
             MaterialKind::Diffuse => Self::DiffuseReflection,
+            MaterialKind::RoughConductor => Self::GlossyReflection,
+            MaterialKind::Plastic => Self::CoatedReflection,
             MaterialKind::Conductor => Self::SpecularReflection,
-            MaterialKind::Dielectric => Self::Refraction,
+            MaterialKind::Dielectric | MaterialKind::RoughDielectric => Self::Refraction,
         }
     }
 
@@ -44,6 +52,8 @@ impl Effect {
         match self {
             Self::DiffuseReflection => "a shape has a diffuse material",
             Self::SpecularReflection => "a shape has a conductor material",
+            Self::GlossyReflection => "a shape has a rough conductor material",
+            Self::CoatedReflection => "a shape has a plastic material",
             Self::Refraction => "a shape has a dielectric material",
             Self::Emission | Self::DirectLight => "light arrives",
         }
@@ -56,6 +66,8 @@ impl Effect {
             Self::Emission => "emission",
             Self::DirectLight => "direct light",
             Self::DiffuseReflection => "diffuse reflection",
+            Self::GlossyReflection => "glossy reflection",
+            Self::CoatedReflection => "coated reflection",
             Self::SpecularReflection => "specular reflection",
             Self::Refraction => "refraction",
         }
@@ -114,7 +126,11 @@ fn decide(scene: &Scene, effect: Effect) -> (bool, String) {
                 (true, format!("lights can be sampled from {}", list(&used)))
             }
         }
-        Effect::DiffuseReflection | Effect::SpecularReflection | Effect::Refraction => by_kind(scene, effect),
+        Effect::DiffuseReflection
+        | Effect::GlossyReflection
+        | Effect::CoatedReflection
+        | Effect::SpecularReflection
+        | Effect::Refraction => by_kind(scene, effect),
     }
 }
 

@@ -118,12 +118,16 @@ impl Tables {
                 Shape::Sphere { material, .. } => used[*material as usize] = true,
             }
         }
+        let named = |name: &str| {
+            let found = flattened.materials.iter().find(|(known, _)| known == name);
+            found.map(|(_, description)| description)
+        };
         let mut materials = MaterialTable::default();
         let numbers = flattened
             .materials
             .iter()
             .zip(used)
-            .map(|((name, description), used)| used.then(|| materials.push(name.clone(), description)))
+            .map(|((name, description), used)| used.then(|| materials.push(name.clone(), description, named)))
             .collect();
         Self {
             geometry: Geometry::default(),

@@ -49,7 +49,7 @@
 //! | `camera` | `Perspective(origin, target, up (0, 1, 0), fov, fov_axis (Vertical))`, `ThinLens(`the same, `aperture_radius, focus_distance (`to `target))`, `Orthographic(origin, target, up (0, 1, 0), height)` | [`CameraDescription`] |
 //! | `film` | `width`, `height`, `filter` (`Box(radius: 0.5)`) | [`FilmDescription`] |
 //! | filters | `Box(radius 0.5)`, `Tent(radius 1)`, `Gaussian(radius 1.5, sigma 0.5)` | [`FilterDescription`] |
-//! | `materials` | `Diffuse`, `Conductor`, `Dielectric`, by name | [`MaterialDescription`] |
+//! | `materials` | `Diffuse`, `Conductor`, `RoughConductor`, `Dielectric`, `RoughDielectric`, `Plastic`, `TwoSided`, by name | [`MaterialDescription`] |
 //! | `shapes` | a list of `name` (none), `shape`, `material`, `emission` (none), `transform` (none) | [`ShapeDescription`] |
 //! | shapes | `Quad`, `Box`, `Sphere`, `Obj` | [`ShapeKind`] |
 //! | transforms | `Translate((x, y, z))`, `Scale((x, y, z))`, `Rotate(axis, degrees)`, `Matrix((row, row, row, row))` | [`TransformStep`] |
@@ -101,8 +101,8 @@ pub mod validate;
 
 pub use compile::{Scene, SceneOverrides};
 pub use description::{
-    CameraDescription, FilmDescription, FilterDescription, FovAxis, MaterialDescription, SceneDescription,
-    SettingsDescription, ShapeDescription, ShapeKind, TransformStep,
+    CameraDescription, ColorDescription, FilmDescription, FilterDescription, FovAxis, MaterialDescription,
+    SceneDescription, SettingsDescription, ShapeDescription, ShapeKind, TransformStep,
 };
 pub use error::{SceneError, SceneWarning, nearest_name};
 pub use flatten::{Emission, Flattened, Geometry, Instance, flatten};

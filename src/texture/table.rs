@@ -25,6 +25,15 @@ impl TextureTable {
         self.names.is_empty()
     }
 
+    /// The number of the texture of that name.
+    #[must_use]
+    pub fn number(&self, name: &str) -> Option<u32> {
+        self.names
+            .iter()
+            .position(|known| known == name)
+            .map(|number| number as u32)
+    }
+
     /// The colour of texture `number` at `uv`; black for a number that there is not.
     #[inline]
     #[must_use]

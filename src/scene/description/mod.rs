@@ -4,6 +4,7 @@
 //! values against their ranges, so that an error can point at the place in the file.
 
 mod camera;
+mod color;
 mod film;
 mod material;
 mod settings;
@@ -11,6 +12,7 @@ mod shape;
 mod unique_map;
 
 pub use camera::{CameraDescription, FovAxis};
+pub use color::ColorDescription;
 pub use film::{FilmDescription, FilterDescription, MAX_FILM_PIXELS, MAX_FILM_SIDE};
 pub use material::MaterialDescription;
 pub use settings::{DEFAULT_MAX_DEPTH, MAX_DEPTH_LIMIT, SettingsDescription};
