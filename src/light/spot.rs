@@ -121,17 +121,16 @@ fn falloff_at(share: f64) -> f64 {
         } else {
             low = s;
         }
-        let slope = s * s * (6.0 - 4.0 * s);
-        let next = s - excess / slope;
-        let next = if next > low && next < high {
+        let step = excess / (s * s * (6.0 - 4.0 * s));
+        if step.abs() <= f64::EPSILON * s {
+            break;
+        }
+        let next = s - step;
+        s = if next > low && next < high {
             next
         } else {
             0.5 * (low + high)
         };
-        if (next - s).abs() <= 1e-15 {
-            return next;
-        }
-        s = next;
     }
     s
 }
