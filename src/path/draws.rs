@@ -6,6 +6,9 @@ use crate::sampling::{Purpose, StreamKey};
 use crate::scene::Scene;
 use glam::Vec2;
 
+/// The numbers that choose the centre of a lens: those of cameras that have no aperture.
+pub const LENS_CENTER: [f32; 2] = [0.5, 0.5];
+
 /// The numbers that choose a light and a point on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightDraw {
@@ -17,6 +20,8 @@ pub struct LightDraw {
 
 /// Where a path's numbers come from, vertex by vertex. Each is in [0, 1), and asked for at most once.
 pub trait PathDraws {
+    /// For choosing a point of the lens.
+    fn lens(&mut self) -> [f32; 2];
     /// Says that the path has reached a vertex at `depth` that may scatter: what is asked for next is for that vertex.
     fn reach(&mut self, depth: u32) {
         let _ = depth;
@@ -25,6 +30,8 @@ pub trait PathDraws {
     fn light(&mut self, depth: u32) -> LightDraw;
     /// For scattering at the vertex at `depth`.
     fn scatter(&mut self, depth: u32) -> [f32; 2];
+    /// For choosing between the lobes of the material at the vertex at `depth`.
+    fn lobe(&mut self, depth: u32) -> f32;
     /// For Russian roulette after the vertex at `depth`.
     fn roulette(&mut self, depth: u32) -> f32;
 }
@@ -33,7 +40,30 @@ pub trait PathDraws {
 #[derive(Clone, Copy, Debug)]
 pub struct KeyedDraws(pub StreamKey);
 
+impl KeyedDraws {
+    /// For starting a path at a light: a light and a point on it, and a direction.
+    #[inline]
+    #[must_use]
+    pub fn emission(self) -> (LightDraw, [f32; 2]) {
+        let mut stream = self.0.stream(Purpose::EMISSION, 0);
+        let choice = stream.next_f64();
+        let point = stream.next_pair();
+        (LightDraw { choice, point }, stream.next_pair())
+    }
+
+    /// For choosing the pixel that light from the vertex at `depth` of a light path counts for.
+    #[inline]
+    #[must_use]
+    pub fn splat(self, depth: u32) -> f32 {
+        self.0.stream(Purpose::SPLAT, depth).next_f32()
+    }
+}
+
 impl PathDraws for KeyedDraws {
+    #[inline]
+    fn lens(&mut self) -> [f32; 2] {
+        self.0.stream(Purpose::LENS, 0).next_pair()
+    }
     #[inline]
     fn light(&mut self, depth: u32) -> LightDraw {
         let mut stream = self.0.stream(Purpose::LIGHT, depth);
@@ -46,6 +76,10 @@ impl PathDraws for KeyedDraws {
     #[inline]
     fn scatter(&mut self, depth: u32) -> [f32; 2] {
         self.0.stream(Purpose::SCATTER, depth).next_pair()
+    }
+    #[inline]
+    fn lobe(&mut self, depth: u32) -> f32 {
+        self.0.stream(Purpose::LOBE, depth).next_f32()
     }
     #[inline]
     fn roulette(&mut self, depth: u32) -> f32 {
@@ -68,6 +102,17 @@ pub struct VertexCoordinates {
     pub scatter: [u32; 2],
     /// Plays roulette; only from [`roulette::FIRST_DEPTH`] on, 0 before.
     pub roulette: u32,
+    /// Chooses between lobes.
+    pub lobe: u32,
+}
+
+/// Which coordinates vertices have, beside those that scatter and play roulette.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CoordinateSet {
+    /// Those that connect to lights.
+    pub lights: bool,
+    /// Those that choose between lobes.
+    pub lobes: bool,
 }
 
 impl FilmCoordinates {
@@ -141,6 +186,7 @@ impl VertexCoordinates {
             light,
             scatter,
             roulette: if plays { stream.next_u32() } else { 0 },
+            lobe: stream.next_u32(),
         }
     }
 
@@ -149,14 +195,15 @@ impl VertexCoordinates {
     #[must_use]
     pub fn perturbed(self, kernel: &Kernel, key: StreamKey, depth: u32) -> Self {
         let mut stream = key.stream(Purpose::PERTURB, depth);
-        // Eight steps fill the lanes that six need.
-        let steps = kernel.steps::<8>(std::array::from_fn(|i| if i < 6 { stream.next_u32() } else { 0 }));
+        // Eight steps fill the lanes that seven need.
+        let steps = kernel.steps::<8>(std::array::from_fn(|i| if i < 7 { stream.next_u32() } else { 0 }));
         let plays = depth >= roulette::FIRST_DEPTH;
         Self {
             scatter: [0, 1].map(|i| steps.narrow(i, self.scatter[i])),
             choice: steps.wide(2, self.choice),
             light: [0, 1].map(|i| steps.narrow(3 + i, self.light[i])),
             roulette: if plays { steps.narrow(5, self.roulette) } else { 0 },
+            lobe: steps.narrow(6, self.lobe),
         }
     }
 
@@ -177,29 +224,35 @@ impl VertexCoordinates {
             } else {
                 0
             },
+            lobe: kernel.uniform_in_support(self.lobe, stream.next_u32()),
         }
     }
 
-    /// ln of the density of the small step from these to `to` at the vertex at `depth`. Coordinates of lights count where
-    /// the plan has them.
+    /// ln of the density of the small step from these to `to` at the vertex at `depth`. Those coordinates count that
+    /// the plan has.
     #[must_use]
-    pub fn log_density(self, kernel: &Kernel, to: Self, depth: u32, lights: bool) -> f64 {
+    pub fn log_density(self, kernel: &Kernel, to: Self, depth: u32, set: CoordinateSet) -> f64 {
         let narrow =
             |from: [u32; 2], to: [u32; 2]| kernel.log_density(from[0], to[0]) + kernel.log_density(from[1], to[1]);
         let mut sum = narrow(self.scatter, to.scatter);
-        if lights {
+        if set.lights {
             sum += kernel.log_density_wide(self.choice, to.choice) + narrow(self.light, to.light);
         }
         if depth >= roulette::FIRST_DEPTH {
             sum += kernel.log_density(self.roulette, to.roulette);
+        }
+        if set.lobes {
+            sum += kernel.log_density(self.lobe, to.lobe);
         }
         sum
     }
 
     /// How many coordinates the vertex at `depth` has.
     #[must_use]
-    pub const fn count(depth: u32, lights: bool) -> u32 {
-        2 + if lights { 3 } else { 0 } + if depth >= roulette::FIRST_DEPTH { 1 } else { 0 }
+    pub const fn count(depth: u32, set: CoordinateSet) -> u32 {
+        2 + if set.lights { 3 } else { 0 }
+            + if depth >= roulette::FIRST_DEPTH { 1 } else { 0 }
+            + if set.lobes { 1 } else { 0 }
     }
 
     /// The numbers that connect to a light.
@@ -217,6 +270,20 @@ impl VertexCoordinates {
     #[must_use]
     pub fn scatter_draw(self) -> [f32; 2] {
         self.scatter.map(to_f32)
+    }
+
+    /// The number that chooses between lobes.
+    #[inline]
+    #[must_use]
+    pub fn lobe_draw(self) -> f32 {
+        to_f32(self.lobe)
+    }
+
+    /// The number that chooses a pixel, for vertices of light paths, which are not connected to lights.
+    #[inline]
+    #[must_use]
+    pub fn splat_draw(self) -> f32 {
+        to_f32(self.light[0])
     }
 
     /// The number that plays roulette.

@@ -2,7 +2,7 @@
 
 use super::flatten::{Emission, Flattened, Geometry as Shape};
 use super::{Mesh, SceneDescription};
-use crate::camera::Perspective;
+use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::film::{Filter, FilterError};
 use crate::geometry::{Geometry, Instance, InstanceShape, NOT_EMITTING};
@@ -20,7 +20,7 @@ pub struct Scene {
     /// Everything that emits.
     pub lights: LightTable,
     /// The camera.
-    pub camera: Perspective,
+    pub camera: Camera,
     /// Pixels from left to right.
     pub width: u32,
     /// Pixels from top to bottom.
@@ -80,7 +80,7 @@ impl Scene {
             geometry: tables.geometry,
             materials: tables.materials,
             lights: LightTable::new(tables.emitters),
-            camera: Perspective::new(&description.camera, width, height),
+            camera: Camera::new(&description.camera, width, height),
             width,
             height,
             filter,

@@ -46,7 +46,7 @@
 //! | block | variants and fields | documented at |
 //! |---|---|---|
 //! | `settings` | `max_depth` (16), `technique` (none) | [`SettingsDescription`] |
-//! | `camera` | `Perspective(origin, target, up (0, 1, 0), fov, fov_axis (Vertical))` | [`CameraDescription`] |
+//! | `camera` | `Perspective(origin, target, up (0, 1, 0), fov, fov_axis (Vertical))`, `ThinLens(`the same, `aperture_radius, focus_distance (`to `target))`, `Orthographic(origin, target, up (0, 1, 0), height)` | [`CameraDescription`] |
 //! | `film` | `width`, `height`, `filter` (`Box(radius: 0.5)`) | [`FilmDescription`] |
 //! | filters | `Box(radius 0.5)`, `Tent(radius 1)`, `Gaussian(radius 1.5, sigma 0.5)` | [`FilterDescription`] |
 //! | `materials` | `Diffuse`, `Conductor`, `Dielectric`, by name | [`MaterialDescription`] |
@@ -166,7 +166,9 @@ mod tests {
             }
         );
         assert_eq!(scene.film.filter, FilterDescription::Box { radius: 0.5 });
-        let CameraDescription::Perspective { up, fov_axis, .. } = scene.camera;
+        let CameraDescription::Perspective { up, fov_axis, .. } = scene.camera else {
+            panic!("{:?}", scene.camera)
+        };
         assert_eq!((up, fov_axis), ([0.0, 1.0, 0.0], FovAxis::Vertical));
     }
 

@@ -31,14 +31,21 @@ pub fn start_camera_paths(
     let (throughputs, scales) = (throughputs.rows(), scales.rows());
     let (kinds, positions, offsets, ratios) = (kinds.rows(), positions.rows(), offsets.rows(), ratios.rows());
     for chain in 0..place.chains as usize {
-        let film = if primary.is_empty() {
-            film_position(scene, place.key(chain, keys.at(chain)), pixels.at(chain))
+        let (film, lens) = if primary.is_empty() {
+            let key = place.key(chain, keys.at(chain));
+            let lens = if scene.camera.has_aperture() {
+                KeyedDraws(key).lens()
+            } else {
+                LENS_CENTER
+            };
+            (film_position(scene, key, pixels.at(chain)), lens)
         } else {
             let (pixel, film) = FilmCoordinates(primary.at(chain)).on_film(scene);
             pixels.put(chain, pixel);
-            film
+            (film, LENS_CENTER)
         };
-        directions.put(chain, scene.camera.direction(film));
+        let ray = scene.camera.ray(film, lens);
+        directions.put(chain, ray.direction);
         lengths.put(chain, 0);
         active.put(chain, chain as u32);
         if !throughputs.is_empty() {
@@ -49,7 +56,7 @@ pub fn start_camera_paths(
         }
         // Vertex 0 of a chain has the chain's own number.
         kinds.put(chain, VERTEX_LENS);
-        positions.put(chain, scene.camera.origin());
+        positions.put(chain, ray.origin);
         offsets.put(chain, 0.0);
         ratios.put(chain, Rgb::ONE);
     }

@@ -2,9 +2,10 @@
 //! elsewhere.
 
 use super::super::tile::TilePlace;
+use crate::material::ScatterDraw;
 use crate::path::{
     ChainKey, ChainTable, CoordinateColumns, CoordinateColumnsMut, KeyedDraws, LightDraw, PathDraws, PrimaryChoice,
-    PrimaryLight, PrimaryRoulette, PrimaryScatter, PrimaryTable, ProposedPrimaryTable,
+    PrimaryLight, PrimaryLobe, PrimaryRoulette, PrimaryScatter, PrimaryTable, ProposedPrimaryTable, VertexCoordinates,
 };
 use crate::table::{Read, Rows, Table, Write};
 use bevy_ecs::system::SystemParam;
@@ -16,6 +17,7 @@ pub struct Coordinates<'w, 's, T: Table> {
     light: Read<'w, 's, PrimaryLight, T>,
     scatter: Read<'w, 's, PrimaryScatter, T>,
     roulette: Read<'w, 's, PrimaryRoulette, T>,
+    lobe: Read<'w, 's, PrimaryLobe, T>,
 }
 
 /// The coordinates of current states.
@@ -32,6 +34,7 @@ impl<T: Table> Coordinates<'_, '_, T> {
             light: self.light.rows(),
             scatter: self.scatter.rows(),
             roulette: self.roulette.rows(),
+            lobe: self.lobe.rows(),
         }
     }
 }
@@ -43,6 +46,7 @@ pub struct CoordinatesMut<'w, 's, T: Table> {
     light: Write<'w, 's, PrimaryLight, T>,
     scatter: Write<'w, 's, PrimaryScatter, T>,
     roulette: Write<'w, 's, PrimaryRoulette, T>,
+    lobe: Write<'w, 's, PrimaryLobe, T>,
 }
 
 impl<T: Table> CoordinatesMut<'_, '_, T> {
@@ -54,6 +58,7 @@ impl<T: Table> CoordinatesMut<'_, '_, T> {
             light: self.light.rows(),
             scatter: self.scatter.rows(),
             roulette: self.roulette.rows(),
+            lobe: self.lobe.rows(),
         }
     }
 }
@@ -85,41 +90,89 @@ impl Draws<'_, '_> {
 }
 
 impl DrawColumns<'_> {
-    /// The numbers that connect the vertex at `depth` of `chain` to a light.
+    /// The numbers that connect the vertex at `depth` of subpath `path` to a light.
     #[inline]
     #[must_use]
-    pub fn light(&self, chain: usize, depth: u32) -> LightDraw {
+    pub fn light(&self, path: usize, depth: u32) -> LightDraw {
         if self.coordinates.scatter.is_empty() {
-            self.keyed(chain).light(depth)
+            self.keyed(path).light(self.place.stream_depth(path, depth))
         } else {
-            self.coordinates.at(self.place.vertex(chain, depth - 1)).light_draw()
+            self.coordinates_at(path, depth).light_draw()
         }
     }
 
-    /// The numbers that scatter at the vertex at `depth` of `chain`.
+    /// The numbers that scatter at the vertex at `depth` of subpath `path`, with one to choose a `lobe` if that is asked for.
     #[inline]
     #[must_use]
-    pub fn scatter(&self, chain: usize, depth: u32) -> [f32; 2] {
+    pub fn scatter(&self, path: usize, depth: u32, lobe: bool) -> ScatterDraw {
         if self.coordinates.scatter.is_empty() {
-            self.keyed(chain).scatter(depth)
+            let (mut keyed, depth) = (self.keyed(path), self.place.stream_depth(path, depth));
+            ScatterDraw {
+                direction: keyed.scatter(depth),
+                lobe: if lobe { keyed.lobe(depth) } else { 0.0 },
+            }
         } else {
-            self.coordinates.at(self.place.vertex(chain, depth - 1)).scatter_draw()
+            let coordinates = self.coordinates_at(path, depth);
+            ScatterDraw {
+                direction: coordinates.scatter_draw(),
+                lobe: if lobe { coordinates.lobe_draw() } else { 0.0 },
+            }
         }
     }
 
-    /// The number that plays roulette after the vertex at `depth` of `chain`.
+    /// The number that plays roulette after the vertex at `depth` of subpath `path`.
     #[inline]
     #[must_use]
-    pub fn roulette(&self, chain: usize, depth: u32) -> f32 {
+    pub fn roulette(&self, path: usize, depth: u32) -> f32 {
         if self.coordinates.scatter.is_empty() {
-            self.keyed(chain).roulette(depth)
+            self.keyed(path).roulette(self.place.stream_depth(path, depth))
         } else {
-            self.coordinates.at(self.place.vertex(chain, depth - 1)).roulette_draw()
+            self.coordinates_at(path, depth).roulette_draw()
+        }
+    }
+
+    /// The numbers that choose the point of the lens where the camera subpath of `chain` starts.
+    #[inline]
+    #[must_use]
+    pub fn lens(&self, chain: usize) -> [f32; 2] {
+        if self.coordinates.scatter.is_empty() {
+            self.keyed(chain).lens()
+        } else {
+            self.coordinates_at(chain, 0).scatter_draw()
+        }
+    }
+
+    /// The numbers that choose where and how the light subpath `path` starts: a light and a point on it, and a direction.
+    #[inline]
+    #[must_use]
+    pub fn emission(&self, path: usize) -> (LightDraw, [f32; 2]) {
+        if self.coordinates.scatter.is_empty() {
+            self.keyed(path).emission()
+        } else {
+            let coordinates = self.coordinates_at(path, 0);
+            (coordinates.light_draw(), coordinates.scatter_draw())
+        }
+    }
+
+    /// The number that chooses the pixel which light from the vertex at `depth` of the light subpath `path` counts for.
+    #[inline]
+    #[must_use]
+    pub fn splat(&self, path: usize, depth: u32) -> f32 {
+        if self.coordinates.scatter.is_empty() {
+            self.keyed(path).splat(depth)
+        } else {
+            self.coordinates_at(path, depth).splat_draw()
         }
     }
 
     #[inline]
-    fn keyed(&self, chain: usize) -> KeyedDraws {
+    fn coordinates_at(&self, path: usize, depth: u32) -> VertexCoordinates {
+        self.coordinates.at(self.place.coordinate(path, depth))
+    }
+
+    #[inline]
+    fn keyed(&self, path: usize) -> KeyedDraws {
+        let chain = self.place.chain(path);
         KeyedDraws(self.place.key(chain, self.keys.at(chain)))
     }
 }

@@ -2,6 +2,7 @@
 //! chance of a false alarm of one in a hundred; each prints what it could have seen, and is shown to fail on a planted
 //! bias.
 
+mod cameras;
 mod diffuse;
 mod discrete;
 mod emission;
