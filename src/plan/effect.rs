@@ -10,6 +10,8 @@ pub enum Effect {
     Emission,
     /// Light connected to from a surface that scatters with a density.
     DirectLight,
+    /// Light from outside the scene that rays meet which leave it.
+    Environment,
     /// Scattering off matt surfaces.
     DiffuseReflection,
     /// Mirrors of metal.
@@ -20,9 +22,10 @@ pub enum Effect {
 
 impl Effect {
     /// Every effect.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Emission,
         Self::DirectLight,
+        Self::Environment,
         Self::DiffuseReflection,
         Self::SpecularReflection,
         Self::Refraction,
@@ -45,7 +48,7 @@ impl Effect {
             Self::DiffuseReflection => "a shape has a diffuse material",
             Self::SpecularReflection => "a shape has a conductor material",
             Self::Refraction => "a shape has a dielectric material",
-            Self::Emission | Self::DirectLight => "light arrives",
+            Self::Emission | Self::DirectLight | Self::Environment => "light arrives",
         }
     }
 
@@ -55,6 +58,7 @@ impl Effect {
         match self {
             Self::Emission => "emission",
             Self::DirectLight => "direct light",
+            Self::Environment => "environment",
             Self::DiffuseReflection => "diffuse reflection",
             Self::SpecularReflection => "specular reflection",
             Self::Refraction => "refraction",
@@ -95,7 +99,7 @@ fn decide(scene: &Scene, effect: Effect) -> (bool, String) {
             "nothing emits: the picture is black and no path is traced".to_owned(),
         );
     }
-    if effect != Effect::Emission && scene.max_depth < 2 {
+    if !matches!(effect, Effect::Emission | Effect::Environment) && scene.max_depth < 2 {
         return (
             false,
             "max_depth is 1: emitters seen directly, nothing scatters".to_owned(),
@@ -114,13 +118,34 @@ fn decide(scene: &Scene, effect: Effect) -> (bool, String) {
                 (true, format!("lights can be sampled from {}", list(&used)))
             }
         }
+        Effect::Environment => environment(scene),
         Effect::DiffuseReflection | Effect::SpecularReflection | Effect::Refraction => by_kind(scene, effect),
     }
 }
 
 fn emitters(scene: &Scene) -> String {
     let names: Vec<&str> = scene.light_names.iter().map(String::as_str).collect();
-    format!("{} emitting primitives: {}", scene.lights.len(), list(&names))
+    let (primitives, all) = (scene.lights.emitter_count(), scene.lights.len());
+    let what = match all - primitives {
+        0 => format!("{primitives} emitting primitives"),
+        others => format!("{primitives} emitting primitives and {others} lights that are no shapes"),
+    };
+    format!("{what}: {}", list(&names))
+}
+
+fn environment(scene: &Scene) -> (bool, String) {
+    let count = scene.lights.infinite().count();
+    if count == 0 {
+        (
+            false,
+            "nothing shines from outside the scene on rays that leave it".to_owned(),
+        )
+    } else {
+        (
+            true,
+            format!("rays that leave the scene meet {count} lights at infinity"),
+        )
+    }
 }
 
 /// Effects that materials of some models bring.
