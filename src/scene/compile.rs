@@ -5,7 +5,7 @@ use super::{Mesh, SceneDescription};
 use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::film::{Filter, FilterError};
-use crate::geometry::{Geometry, Instance, InstanceShape, NOT_EMITTING};
+use crate::geometry::{BoundingSphere, Geometry, Instance, InstanceShape, NOT_EMITTING};
 use crate::light::{Emitter, EmitterShape, LightTable};
 use crate::material::MaterialTable;
 use std::f32::consts::PI;
@@ -29,7 +29,7 @@ pub struct Scene {
     pub filter: Filter,
     /// The most edges of a path: 1 shows emitters seen directly, 2 adds direct light.
     pub max_depth: u32,
-    /// Names of the shapes that emit.
+    /// Names of the shapes that emit, then of the lights that are no shapes.
     pub light_names: Vec<String>,
     /// Names of all instances, by number.
     pub instance_names: Vec<String>,
@@ -76,18 +76,27 @@ impl Scene {
             .instances
             .iter()
             .filter(|instance| !instance.emission.is_none());
+        let sphere = bounding_sphere(&tables.geometry);
+        let others = flattened.lights.iter().map(|(_, light)| light);
+        let named = flattened.lights.iter().map(|(name, _)| name);
         Ok(Self {
             geometry: tables.geometry,
             materials: tables.materials,
-            lights: LightTable::new(tables.emitters),
+            lights: LightTable::with_lights(tables.emitters, others.cloned().collect(), sphere),
             camera: Camera::new(&description.camera, width, height),
             width,
             height,
             filter,
             max_depth: overrides.max_depth.unwrap_or(description.settings.max_depth),
-            light_names: lit.map(|instance| instance.name.clone()).collect(),
+            light_names: lit.map(|instance| &instance.name).chain(named).cloned().collect(),
             instance_names: flattened.instances.iter().map(|i| i.name.clone()).collect(),
         })
+    }
+
+    /// A sphere that no shape reaches out of.
+    #[must_use]
+    pub fn bounding_sphere(&self) -> BoundingSphere {
+        bounding_sphere(&self.geometry)
     }
 
     /// Number of pixels.
@@ -95,6 +104,13 @@ impl Scene {
     pub fn pixel_count(&self) -> u32 {
         self.width * self.height
     }
+}
+
+fn bounding_sphere(geometry: &Geometry) -> BoundingSphere {
+    let bounds = geometry.bounds();
+    bounds.map_or_else(BoundingSphere::default, |(least, most)| {
+        BoundingSphere::around(least, most)
+    })
 }
 
 /// Tables while they grow.

@@ -6,6 +6,7 @@
 mod camera;
 mod color;
 mod film;
+mod light;
 mod material;
 mod settings;
 mod shape;
@@ -14,6 +15,7 @@ mod unique_map;
 pub use camera::{CameraDescription, FovAxis};
 pub use color::ColorDescription;
 pub use film::{FilmDescription, FilterDescription, MAX_FILM_PIXELS, MAX_FILM_SIDE};
+pub use light::LightDescription;
 pub use material::MaterialDescription;
 pub use settings::{DEFAULT_MAX_DEPTH, MAX_DEPTH_LIMIT, SettingsDescription};
 pub use shape::{ShapeDescription, ShapeKind, TransformStep};
@@ -40,6 +42,9 @@ pub struct SceneDescription {
     /// Materials by name. Default: none. Two of the same name are an error.
     #[serde(default, deserialize_with = "unique_map::deserialize")]
     pub materials: BTreeMap<String, MaterialDescription>,
+    /// Lights that are no shapes. Default: none.
+    #[serde(default)]
+    pub lights: Vec<LightDescription>,
     /// Shapes, in the order in which they become instances. Required.
     pub shapes: Vec<ShapeDescription>,
 }

@@ -1,6 +1,7 @@
 //! Holds the values of a scene against their ranges: every number finite, and nothing that a later stage would divide
 //! by can be zero. What depends on transforms and on mesh files is checked where they are applied and read.
 
+mod light;
 mod material;
 mod shape;
 mod view;
@@ -37,6 +38,9 @@ pub fn validate(source: &SceneSource) -> Result<Vec<SceneWarning>, SceneError> {
             return Err(root.key("materials").name(name).error("a material's name is empty", ""));
         }
         material::check(&root.key("materials").key(name), material, &known)?;
+    }
+    for (index, light) in scene.lights.iter().enumerate() {
+        light::check(&root.key("lights").index(index), light)?;
     }
     let shapes = root.key("shapes");
     if scene.shapes.is_empty() {
