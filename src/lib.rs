@@ -59,4 +59,5 @@ pub mod stats;
 #[path = "../systems/mod.rs"]
 pub mod systems;
 pub mod table;
+pub mod texture;
 pub mod tolerance;

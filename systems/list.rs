@@ -10,7 +10,6 @@ const EVALUATE: Place = Place::Stage(Stage::Evaluate);
 const ACCEPT: Place = Place::Stage(Stage::Accept);
 const SPLAT: Place = Place::Stage(Stage::Splat);
 const DRAW: Place = Place::Loop(TraceStep::Draw);
-const SCATTER: Place = Place::Loop(TraceStep::Scatter);
 
 /// Phases that draw independent proposals.
 const DRAWS: Phases = Phases::BOOTSTRAP.and(Phases::SEED);
@@ -71,12 +70,6 @@ list! {
     CONNECT_LIGHTS = Place::Loop(TraceStep::Connect), trace::connect_lights;
     /// Traces the segments to the sampled lights.
     TRANSMIT_SEGMENTS = Place::Loop(TraceStep::Transmit), trace::transmit_segments, tracing(Traces::Segments);
-    /// Scatters chains that stand on diffuse materials.
-    SCATTER_DIFFUSE = SCATTER, trace::scatter_diffuse;
-    /// Scatters chains that stand on conductors.
-    SCATTER_CONDUCTOR = SCATTER, trace::scatter_conductor;
-    /// Scatters chains that stand on dielectrics.
-    SCATTER_DIELECTRIC = SCATTER, trace::scatter_dielectric;
     /// Plays Russian roulette and lists who goes on.
     CONTINUE_PATHS = Place::Loop(TraceStep::Continue), trace::continue_paths;
     /// Traces whole paths, one after another.

@@ -14,8 +14,8 @@
 //!       [`draw_small_steps`](propose::draw_small_steps),
 //!    5. connect: [`connect_lights`](trace::connect_lights),
 //!    6. transmit: [`transmit_segments`](trace::transmit_segments),
-//!    7. scatter: [`scatter_diffuse`](trace::scatter_diffuse), [`scatter_conductor`](trace::scatter_conductor),
-//!       [`scatter_dielectric`](trace::scatter_dielectric),
+//!    7. scatter: a system per material model of the scene ([`scatter_system`](trace::scatter_system)), such as
+//!       [`scatter_diffuse`](trace::scatter_diffuse),
 //!    8. continue: [`continue_paths`](trace::continue_paths);
 //!
 //!    or, for the depth-first baseline, [`trace_depth_first`](trace::trace_depth_first) alone (for chains,

@@ -3,6 +3,7 @@
 //! None of it is a table: tables are columns.
 
 use crate::film::{BlockGrid, Film, GroupFilm};
+use crate::material::KINDS;
 use crate::path::{VERTEX_DISCRETE, VERTEX_LENS};
 use crate::plan::{Extent, TablePlan, TilePlan};
 use crate::sampling::StreamKey;
@@ -68,12 +69,8 @@ pub struct Queues {
     pub connect: usize,
     /// Chains in [`DrawList`](crate::path::DrawList).
     pub draw: usize,
-    /// Chains in [`DiffuseList`](crate::path::DiffuseList).
-    pub diffuse: usize,
-    /// Chains in [`ConductorList`](crate::path::ConductorList).
-    pub conductor: usize,
-    /// Chains in [`DielectricList`](crate::path::DielectricList).
-    pub dielectric: usize,
+    /// Chains in each list of [`ScatterList`](crate::path::ScatterList), by the scene's model number.
+    pub scatter: [usize; KINDS],
     /// Chains in [`ScatteredList`](crate::path::ScatteredList).
     pub scattered: usize,
     /// Chains in [`AcceptedList`](crate::chain::AcceptedList).

@@ -21,7 +21,7 @@ pub use queue::{
     SegmentColumns, SegmentTarget, SegmentTransmittance,
 };
 pub(crate) use surface::offset_distance;
-pub use surface::{Hit, Instance, InstanceShape, SurfacePoint, offset_origin};
+pub use surface::{Hit, Instance, InstanceShape, SurfacePoint, TexturePoint, offset_origin};
 
 use glam::Vec3;
 use leaf::LeafPrimitive;

@@ -2,7 +2,7 @@
 
 use super::{Geometry, octahedral};
 use crate::tolerance::{EDGE_INSET_UNITS, LEAST_INSET_HEIGHT, ORIGIN_OFFSET_FLOOR, ORIGIN_OFFSET_UNITS};
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// One shape of the scene.
 #[derive(Clone, Copy, Debug)]
@@ -75,7 +75,32 @@ pub struct SurfacePoint {
     pub light: u32,
 }
 
+/// What textures and materials that are not the same all around ask of a surface point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TexturePoint {
+    /// Texture coordinates.
+    pub uv: Vec2,
+    /// The direction in which u grows, world space, unit, orthogonal to the shading normal; zero where there is none, and any
+    /// orthogonal direction will do.
+    pub tangent: Vec3,
+}
+
+impl TexturePoint {
+    /// A point of a surface without texture coordinates.
+    pub const NONE: Self = Self {
+        uv: Vec2::ZERO,
+        tangent: Vec3::ZERO,
+    };
+}
+
 impl Geometry {
+    /// Texture coordinates and tangent of a hit.
+    #[must_use]
+    pub fn texture_point(&self, hit: Hit) -> TexturePoint {
+        let _ = hit;
+        TexturePoint::NONE
+    }
+
     /// The corners of a mesh's triangle, world space; `None` if there is no such triangle.
     pub(crate) fn corners(&self, instance: &Instance, primitive: u32) -> Option<[Vec3; 3]> {
         let InstanceShape::Mesh {

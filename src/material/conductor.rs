@@ -11,8 +11,9 @@
 //! be found by following the mirrored direction, so what a mirror throws onto a matt surface (a caustic) is noisy under
 //! path tracing unless the light is large.
 
-use super::{Scattered, fresnel};
+use super::{MaterialKind, Model, ScatterDraw, Scattered, Transport, fresnel};
 use crate::color::Rgb;
+use crate::texture::{Color, Shading};
 use glam::Vec3;
 
 /// One smooth metal.
@@ -23,16 +24,17 @@ pub struct Conductor {
     /// Absorption coefficient, per channel.
     pub k: Rgb,
     /// Scale of the reflection, per channel.
-    pub reflectance: Rgb,
+    pub reflectance: Color,
     /// Whether the back reflects like the front.
     pub two_sided: bool,
 }
 
-impl Conductor {
+impl Model for Conductor {
+    const KIND: MaterialKind = MaterialKind::Conductor;
+
     /// The mirrored direction; `None` on the black back of a one-sided surface.
     #[inline]
-    #[must_use]
-    pub fn sample(&self, wi: Vec3) -> Option<Scattered> {
+    fn sample(&self, at: &Shading<'_>, wi: Vec3, _: ScatterDraw, _: Transport) -> Option<Scattered> {
         if wi.z == 0.0 || (wi.z < 0.0 && !self.two_sided) {
             return None;
         }
@@ -44,8 +46,9 @@ impl Conductor {
         );
         Some(Scattered {
             wo: Vec3::new(-wi.x, -wi.y, wi.z),
-            ratio: self.reflectance * reflected,
+            ratio: self.reflectance.at(at) * reflected,
             density: 1.0,
+            reverse: 1.0,
             discrete: true,
             relative_ior: 1.0,
         })

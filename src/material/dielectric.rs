@@ -12,8 +12,9 @@
 //! squared ratio of indices as it crosses (Veach 1997, §5.2); on the way out again the scale returns. An interface
 //! between equal indices is not there: it reflects nothing and bends nothing.
 
-use super::{Scattered, fresnel};
+use super::{MaterialKind, Model, ScatterDraw, Scattered, Transport, fresnel};
 use crate::color::Rgb;
+use crate::texture::Shading;
 use glam::Vec3;
 
 /// One smooth interface.
@@ -27,11 +28,13 @@ pub struct Dielectric {
     pub transmittance: Rgb,
 }
 
-impl Dielectric {
-    /// Reflects or refracts, each with its share of the power; `u` decides. `None` exactly at grazing incidence.
+impl Model for Dielectric {
+    const KIND: MaterialKind = MaterialKind::Dielectric;
+
+    /// Reflects or refracts, each with its share of the power; the first number of the direction decides. `None` exactly at
+    /// grazing incidence.
     #[inline]
-    #[must_use]
-    pub fn sample(&self, wi: Vec3, u: f32) -> Option<Scattered> {
+    fn sample(&self, _: &Shading<'_>, wi: Vec3, draw: ScatterDraw, transport: Transport) -> Option<Scattered> {
         if wi.z == 0.0 {
             return None;
         }
@@ -42,11 +45,12 @@ impl Dielectric {
             1.0 / self.relative_ior
         };
         let fresnel = fresnel::dielectric(wi.z.abs(), relative_ior);
-        if u < fresnel.reflectance {
+        if draw.direction[0] < fresnel.reflectance {
             return Some(Scattered {
                 wo: Vec3::new(-wi.x, -wi.y, wi.z),
                 ratio: self.reflectance,
                 density: fresnel.reflectance,
+                reverse: fresnel.reflectance,
                 discrete: true,
                 relative_ior: 1.0,
             });
@@ -57,11 +61,17 @@ impl Dielectric {
             -wi.y * inverse,
             fresnel.cos_transmitted.copysign(-wi.z),
         );
+        let probability = 1.0 - fresnel.reflectance;
+        let scale = match transport {
+            // Radiance spreads over a larger or smaller solid angle.
+            Transport::Radiance => inverse * inverse,
+            Transport::Importance => 1.0,
+        };
         Some(Scattered {
             wo: wo.normalize(),
-            // Radiance spreads over a larger or smaller solid angle.
-            ratio: self.transmittance * (inverse * inverse),
-            density: 1.0 - fresnel.reflectance,
+            ratio: self.transmittance * scale,
+            density: probability,
+            reverse: probability * (wi.z.abs() / fresnel.cos_transmitted) * (inverse * inverse),
             discrete: true,
             relative_ior,
         })

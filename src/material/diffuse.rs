@@ -9,9 +9,9 @@
 //! highlight matters: no mixture of diffuse surfaces makes one. f = ρ/π; directions are drawn in proportion to the
 //! cosine, so that the throughput ratio is ρ itself and no noise comes from the material.
 
-use super::{Evaluated, Scattered};
-use crate::color::Rgb;
+use super::{Evaluated, MaterialKind, Model, ScatterDraw, Scattered, Transport};
 use crate::sampling::warp;
+use crate::texture::{Color, Shading};
 use glam::Vec3;
 use std::f32::consts::FRAC_1_PI;
 
@@ -19,20 +19,21 @@ use std::f32::consts::FRAC_1_PI;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Diffuse {
     /// Share of light that is reflected, per channel.
-    pub reflectance: Rgb,
+    pub reflectance: Color,
     /// Whether the back reflects like the front.
     pub two_sided: bool,
 }
 
-impl Diffuse {
-    /// Draws a direction from two uniform numbers; `None` on the black back of a one-sided surface.
+impl Model for Diffuse {
+    const KIND: MaterialKind = MaterialKind::Diffuse;
+
+    /// `None` on the black back of a one-sided surface.
     #[inline]
-    #[must_use]
-    pub fn sample(&self, wi: Vec3, u: [f32; 2]) -> Option<Scattered> {
+    fn sample(&self, at: &Shading<'_>, wi: Vec3, draw: ScatterDraw, _: Transport) -> Option<Scattered> {
         if wi.z == 0.0 || (wi.z < 0.0 && !self.two_sided) {
             return None;
         }
-        let mut wo = warp::cosine_hemisphere(u);
+        let mut wo = warp::cosine_hemisphere(draw.direction);
         let density = warp::cosine_hemisphere_density(wo.z);
         if density == 0.0 {
             return None;
@@ -40,24 +41,24 @@ impl Diffuse {
         wo.z = wo.z.copysign(wi.z);
         Some(Scattered {
             wo,
-            ratio: self.reflectance,
+            ratio: self.reflectance.at(at),
             density,
+            reverse: warp::cosine_hemisphere_density(wi.z.abs()),
             discrete: false,
             relative_ior: 1.0,
         })
     }
 
-    /// Value and density for a pair of directions.
     #[inline]
-    #[must_use]
-    pub fn evaluate(&self, wi: Vec3, wo: Vec3) -> Evaluated {
+    fn evaluate(&self, at: &Shading<'_>, wi: Vec3, wo: Vec3, _: Transport) -> Evaluated {
         if wi.z * wo.z <= 0.0 || (wi.z < 0.0 && !self.two_sided) {
             return Evaluated::ZERO;
         }
         let cosine = wo.z.abs();
         Evaluated {
-            value: self.reflectance * (FRAC_1_PI * cosine),
+            value: self.reflectance.at(at) * (FRAC_1_PI * cosine),
             density: warp::cosine_hemisphere_density(cosine),
+            reverse: warp::cosine_hemisphere_density(wi.z.abs()),
         }
     }
 }

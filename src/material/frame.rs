@@ -25,6 +25,18 @@ impl Frame {
         }
     }
 
+    /// The frame about a unit normal whose x axis is `tangent`, unit and orthogonal to it up to rounding.
+    #[inline]
+    #[must_use]
+    pub fn with_tangent(normal: Vec3, tangent: Vec3) -> Self {
+        let y = normal.cross(tangent).normalize();
+        Self {
+            x: y.cross(normal),
+            y,
+            z: normal,
+        }
+    }
+
     /// A world direction in this frame.
     #[inline]
     #[must_use]

@@ -3,43 +3,99 @@
 use super::conductor::Conductor;
 use super::dielectric::Dielectric;
 use super::diffuse::Diffuse;
-use super::{Evaluated, Scattered};
+use super::list::for_each_material;
+use super::{Evaluated, Model, ScatterDraw, Scattered, Transport};
 use crate::scene::MaterialDescription;
-use glam::Vec3;
+use crate::texture::{Shading, TextureTable};
+use glam::{Vec2, Vec3};
 
-/// The models. A system per model scatters the chains that stand on it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum MaterialKind {
-    /// [`Diffuse`].
-    Diffuse,
-    /// [`Conductor`].
-    Conductor,
-    /// [`Dielectric`].
-    Dielectric,
+macro_rules! define {
+    ($($Kind:ident, $table:ident, $name:literal, $scatter:ident, discrete: $discrete:literal, lobes: $lobes:literal;)*) => {
+        /// The models. A system per model scatters the chains that stand on it.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum MaterialKind {
+            $(#[doc = concat!("[`", stringify!($Kind), "`].")] $Kind,)*
+        }
+
+        impl MaterialKind {
+            /// Every model.
+            pub const ALL: &[Self] = &[$(Self::$Kind),*];
+
+            /// Whether the model scatters into a few directions alone, so that lights cannot be sampled through it.
+            #[must_use]
+            pub const fn is_discrete(self) -> bool {
+                match self { $(Self::$Kind => $discrete),* }
+            }
+
+            /// Whether the model needs a number of its own to choose between its lobes.
+            #[must_use]
+            pub const fn chooses_lobes(self) -> bool {
+                match self { $(Self::$Kind => $lobes),* }
+            }
+
+            /// The model's name as plans print it.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self { $(Self::$Kind => $name),* }
+            }
+        }
+
+        /// The rows of every model.
+        #[derive(Clone, Debug, Default)]
+        struct Rows {
+            $($table: Vec<$Kind>,)*
+        }
+
+        $(impl InTable for $Kind {
+            fn rows(table: &MaterialTable) -> &[Self] {
+                &table.rows.$table
+            }
+        })*
+
+        impl MaterialTable {
+            /// Draws the direction in which a path goes on from a material. See [`Model::sample`].
+            #[inline]
+            #[must_use]
+            pub fn sample(&self, material: u32, uv: Vec2, wi: Vec3, draw: ScatterDraw, transport: Transport) -> Option<Scattered> {
+                let (kind, row) = self.index[material as usize];
+                let at = self.shading(uv);
+                match kind {
+                    $(MaterialKind::$Kind => self.rows.$table[row as usize].sample(&at, wi, draw, transport),)*
+                }
+            }
+
+            /// Value and densities of a material for a pair of directions. See [`Model::evaluate`].
+            #[inline]
+            #[must_use]
+            pub fn evaluate(&self, material: u32, uv: Vec2, wi: Vec3, wo: Vec3, transport: Transport) -> Evaluated {
+                let (kind, row) = self.index[material as usize];
+                let at = self.shading(uv);
+                match kind {
+                    $(MaterialKind::$Kind => self.rows.$table[row as usize].evaluate(&at, wi, wo, transport),)*
+                }
+            }
+        }
+    };
 }
 
-impl MaterialKind {
-    /// Every model.
-    pub const ALL: [Self; 3] = [Self::Diffuse, Self::Conductor, Self::Dielectric];
+for_each_material!(define);
 
-    /// Whether the model scatters into a few directions alone, so that lights cannot be sampled through it.
-    #[must_use]
-    pub const fn is_discrete(self) -> bool {
-        match self {
-            Self::Diffuse => false,
-            Self::Conductor | Self::Dielectric => true,
-        }
-    }
+/// The most models that there can be: what lists by model have room for.
+pub const KINDS: usize = MaterialKind::ALL.len();
 
-    /// The model's name as plans print it.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Diffuse => "diffuse",
-            Self::Conductor => "conductor",
-            Self::Dielectric => "dielectric",
-        }
-    }
+/// A model that has a table of its own.
+pub trait InTable: Model {
+    /// The rows of the model's table.
+    fn rows(table: &MaterialTable) -> &[Self];
+}
+
+/// What the materials of a scene ask of surface points, beyond normals.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Needs {
+    /// Texture coordinates.
+    pub textures: bool,
+    /// Tangents.
+    pub tangents: bool,
 }
 
 /// Materials by number.
@@ -47,9 +103,14 @@ impl MaterialKind {
 pub struct MaterialTable {
     names: Vec<String>,
     index: Vec<(MaterialKind, u32)>,
-    diffuse: Vec<Diffuse>,
-    conductor: Vec<Conductor>,
-    dielectric: Vec<Dielectric>,
+    /// Of materials that differ by side, the numbers of front and back; empty where none does.
+    sides: Vec<[u32; 2]>,
+    /// The models that some material has, in the order of [`MaterialKind::ALL`].
+    kinds: Vec<MaterialKind>,
+    rows: Rows,
+    needs: Needs,
+    /// The scene's textures.
+    pub textures: TextureTable,
 }
 
 impl MaterialTable {
@@ -57,8 +118,9 @@ impl MaterialTable {
     pub fn push(&mut self, name: String, description: &MaterialDescription) -> u32 {
         let (kind, row) = match *description {
             MaterialDescription::Diffuse { reflectance, two_sided } => {
-                self.diffuse.push(Diffuse { reflectance, two_sided });
-                (MaterialKind::Diffuse, self.diffuse.len() - 1)
+                let reflectance = reflectance.into();
+                self.rows.diffuse.push(Diffuse { reflectance, two_sided });
+                (MaterialKind::Diffuse, self.rows.diffuse.len() - 1)
             }
             MaterialDescription::Conductor {
                 eta,
@@ -66,13 +128,13 @@ impl MaterialTable {
                 reflectance,
                 two_sided,
             } => {
-                self.conductor.push(Conductor {
+                self.rows.conductor.push(Conductor {
                     eta,
                     k,
-                    reflectance,
+                    reflectance: reflectance.into(),
                     two_sided,
                 });
-                (MaterialKind::Conductor, self.conductor.len() - 1)
+                (MaterialKind::Conductor, self.rows.conductor.len() - 1)
             }
             MaterialDescription::Dielectric {
                 interior_ior,
@@ -81,16 +143,19 @@ impl MaterialTable {
                 transmittance,
             } => {
                 let relative_ior = interior_ior / exterior_ior;
-                self.dielectric.push(Dielectric {
+                self.rows.dielectric.push(Dielectric {
                     relative_ior,
                     reflectance,
                     transmittance,
                 });
-                (MaterialKind::Dielectric, self.dielectric.len() - 1)
+                (MaterialKind::Dielectric, self.rows.dielectric.len() - 1)
             }
         };
         self.names.push(name);
         self.index.push((kind, row as u32));
+        if let Err(place) = self.kinds.binary_search(&kind) {
+            self.kinds.insert(place, kind);
+        }
         (self.index.len() - 1) as u32
     }
 
@@ -119,39 +184,55 @@ impl MaterialTable {
         &self.names[material as usize]
     }
 
+    /// The row of a material in its model's table.
     #[inline]
-    fn row(&self, material: u32) -> usize {
+    #[must_use]
+    pub fn row(&self, material: u32) -> usize {
         self.index[material as usize].1 as usize
     }
 
-    /// Scatters off a diffuse material. See [`Diffuse::sample`].
-    #[inline]
+    /// The models that some material has, in the order of [`MaterialKind::ALL`].
     #[must_use]
-    pub fn sample_diffuse(&self, material: u32, wi: Vec3, u: [f32; 2]) -> Option<Scattered> {
-        self.diffuse[self.row(material)].sample(wi, u)
+    pub fn kinds(&self) -> &[MaterialKind] {
+        &self.kinds
     }
 
-    /// Scatters off a conductor. See [`Conductor::sample`].
-    #[inline]
+    /// What the materials ask of surface points.
     #[must_use]
-    pub fn sample_conductor(&self, material: u32, wi: Vec3) -> Option<Scattered> {
-        self.conductor[self.row(material)].sample(wi)
+    pub const fn needs(&self) -> Needs {
+        self.needs
     }
 
-    /// Scatters off a dielectric. See [`Dielectric::sample`].
-    #[inline]
+    /// Whether some material needs a number to choose between its lobes.
     #[must_use]
-    pub fn sample_dielectric(&self, material: u32, wi: Vec3, u: f32) -> Option<Scattered> {
-        self.dielectric[self.row(material)].sample(wi, u)
+    pub fn choose_lobes(&self) -> bool {
+        self.kinds.iter().any(|kind| kind.chooses_lobes())
     }
 
-    /// Value and density of a material for a pair of directions; zero for discrete materials.
+    /// The number of a model among those of the scene: its place in [`kinds`](Self::kinds).
     #[inline]
     #[must_use]
-    pub fn evaluate(&self, material: u32, wi: Vec3, wo: Vec3) -> Evaluated {
-        match self.kind(material) {
-            MaterialKind::Diffuse => self.diffuse[self.row(material)].evaluate(wi, wo),
-            MaterialKind::Conductor | MaterialKind::Dielectric => Evaluated::ZERO,
+    pub fn model(&self, kind: MaterialKind) -> Option<usize> {
+        self.kinds.iter().position(|known| *known == kind)
+    }
+
+    /// The material that is seen from the front, or from the back, of a surface with this one.
+    #[inline]
+    #[must_use]
+    pub fn facing(&self, material: u32, front: bool) -> u32 {
+        match self.sides.get(material as usize) {
+            None => material,
+            Some(sides) => sides[usize::from(!front)],
+        }
+    }
+
+    /// What materials may ask of a point with these texture coordinates.
+    #[inline]
+    #[must_use]
+    pub const fn shading(&self, uv: Vec2) -> Shading<'_> {
+        Shading {
+            uv,
+            textures: &self.textures,
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::color::Rgb;
 use crate::columns;
 use crate::table::{NoTwin, Table};
 use bevy_ecs::component::Component;
-use glam::{DVec2, Vec3};
+use glam::{DVec2, Vec2, Vec3};
 
 /// Marks the rows of the chain table.
 #[derive(Component, Clone, Copy, Debug, Default)]
@@ -23,6 +23,15 @@ impl Table for ChainTable {
 pub struct ProposalTable;
 
 impl Table for ProposalTable {
+    type Twin = NoTwin;
+}
+
+/// Marks the rows of the table of chains that wait to be scattered: entry i of the list of the scene's model number m (in
+/// the order of [`MaterialTable::kinds`](crate::material::MaterialTable::kinds)) has number m · capacity + i.
+#[derive(Component, Clone, Copy, Debug, Default)]
+pub struct ScatterTable;
+
+impl Table for ScatterTable {
     type Twin = NoTwin;
 }
 
@@ -65,12 +74,9 @@ columns! {
     pub ActiveList: u32;
     /// Chains whose vertex waits for a connection to a light.
     pub ConnectList: u32;
-    /// Chains that stand on a diffuse material.
-    pub DiffuseList: u32;
-    /// Chains that stand on a conductor.
-    pub ConductorList: u32;
-    /// Chains that stand on a dielectric.
-    pub DielectricList: u32;
+    /// Chains that stand on materials of a model: a list for each model of the scene, one behind the other, see
+    /// [`ScatterTable`].
+    pub ScatterList: u32;
     /// Chains that were scattered and wait for roulette.
     pub ScatteredList: u32;
     /// The chain that a ray or segment belongs to.
@@ -92,8 +98,12 @@ columns! {
     pub VertexPrimitive: u32;
     /// Coordinates on the primitive.
     pub VertexUv: DVec2;
-    /// Material number.
+    /// Material number, of the side that the path arrived on.
     pub VertexMaterial: u32;
+    /// Texture coordinates.
+    pub VertexTexture: Vec2;
+    /// Unit tangent, world space: the first axis of materials that are not the same all around.
+    pub VertexTangent: Vec3;
     /// f · |cos| / p of scattering at the vertex (and of surviving roulette there); 1 on the lens.
     pub VertexRatio: Rgb;
     /// Density of the direction sampled at the vertex, per solid angle; a probability if the vertex is discrete.

@@ -30,6 +30,8 @@ pub trait PathDraws {
     fn light(&mut self, depth: u32) -> LightDraw;
     /// For scattering at the vertex at `depth`.
     fn scatter(&mut self, depth: u32) -> [f32; 2];
+    /// For choosing between the lobes of the material at the vertex at `depth`.
+    fn lobe(&mut self, depth: u32) -> f32;
     /// For Russian roulette after the vertex at `depth`.
     fn roulette(&mut self, depth: u32) -> f32;
 }
@@ -57,6 +59,10 @@ impl PathDraws for KeyedDraws {
         self.0.stream(Purpose::SCATTER, depth).next_pair()
     }
     #[inline]
+    fn lobe(&mut self, depth: u32) -> f32 {
+        self.0.stream(Purpose::LOBE, depth).next_f32()
+    }
+    #[inline]
     fn roulette(&mut self, depth: u32) -> f32 {
         self.0.stream(Purpose::ROULETTE, depth).next_f32()
     }
@@ -77,6 +83,17 @@ pub struct VertexCoordinates {
     pub scatter: [u32; 2],
     /// Plays roulette; only from [`roulette::FIRST_DEPTH`] on, 0 before.
     pub roulette: u32,
+    /// Chooses between lobes.
+    pub lobe: u32,
+}
+
+/// Which coordinates vertices have, beside those that scatter and play roulette.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CoordinateSet {
+    /// Those that connect to lights.
+    pub lights: bool,
+    /// Those that choose between lobes.
+    pub lobes: bool,
 }
 
 impl FilmCoordinates {
@@ -150,6 +167,7 @@ impl VertexCoordinates {
             light,
             scatter,
             roulette: if plays { stream.next_u32() } else { 0 },
+            lobe: stream.next_u32(),
         }
     }
 
@@ -158,14 +176,15 @@ impl VertexCoordinates {
     #[must_use]
     pub fn perturbed(self, kernel: &Kernel, key: StreamKey, depth: u32) -> Self {
         let mut stream = key.stream(Purpose::PERTURB, depth);
-        // Eight steps fill the lanes that six need.
-        let steps = kernel.steps::<8>(std::array::from_fn(|i| if i < 6 { stream.next_u32() } else { 0 }));
+        // Eight steps fill the lanes that seven need.
+        let steps = kernel.steps::<8>(std::array::from_fn(|i| if i < 7 { stream.next_u32() } else { 0 }));
         let plays = depth >= roulette::FIRST_DEPTH;
         Self {
             scatter: [0, 1].map(|i| steps.narrow(i, self.scatter[i])),
             choice: steps.wide(2, self.choice),
             light: [0, 1].map(|i| steps.narrow(3 + i, self.light[i])),
             roulette: if plays { steps.narrow(5, self.roulette) } else { 0 },
+            lobe: steps.narrow(6, self.lobe),
         }
     }
 
@@ -186,29 +205,35 @@ impl VertexCoordinates {
             } else {
                 0
             },
+            lobe: kernel.uniform_in_support(self.lobe, stream.next_u32()),
         }
     }
 
-    /// ln of the density of the small step from these to `to` at the vertex at `depth`. Coordinates of lights count where
-    /// the plan has them.
+    /// ln of the density of the small step from these to `to` at the vertex at `depth`. Those coordinates count that
+    /// the plan has.
     #[must_use]
-    pub fn log_density(self, kernel: &Kernel, to: Self, depth: u32, lights: bool) -> f64 {
+    pub fn log_density(self, kernel: &Kernel, to: Self, depth: u32, set: CoordinateSet) -> f64 {
         let narrow =
             |from: [u32; 2], to: [u32; 2]| kernel.log_density(from[0], to[0]) + kernel.log_density(from[1], to[1]);
         let mut sum = narrow(self.scatter, to.scatter);
-        if lights {
+        if set.lights {
             sum += kernel.log_density_wide(self.choice, to.choice) + narrow(self.light, to.light);
         }
         if depth >= roulette::FIRST_DEPTH {
             sum += kernel.log_density(self.roulette, to.roulette);
+        }
+        if set.lobes {
+            sum += kernel.log_density(self.lobe, to.lobe);
         }
         sum
     }
 
     /// How many coordinates the vertex at `depth` has.
     #[must_use]
-    pub const fn count(depth: u32, lights: bool) -> u32 {
-        2 + if lights { 3 } else { 0 } + if depth >= roulette::FIRST_DEPTH { 1 } else { 0 }
+    pub const fn count(depth: u32, set: CoordinateSet) -> u32 {
+        2 + if set.lights { 3 } else { 0 }
+            + if depth >= roulette::FIRST_DEPTH { 1 } else { 0 }
+            + if set.lobes { 1 } else { 0 }
     }
 
     /// The numbers that connect to a light.
@@ -226,6 +251,13 @@ impl VertexCoordinates {
     #[must_use]
     pub fn scatter_draw(self) -> [f32; 2] {
         self.scatter.map(to_f32)
+    }
+
+    /// The number that chooses between lobes.
+    #[inline]
+    #[must_use]
+    pub fn lobe_draw(self) -> f32 {
+        to_f32(self.lobe)
     }
 
     /// The number that plays roulette.

@@ -13,7 +13,7 @@ mod scatterer;
 mod states;
 
 pub use columns::*;
-pub use draws::{FilmCoordinates, KeyedDraws, LENS_CENTER, LightDraw, PathDraws, VertexCoordinates};
+pub use draws::{CoordinateSet, FilmCoordinates, KeyedDraws, LENS_CENTER, LightDraw, PathDraws, VertexCoordinates};
 pub use film_position::film_position;
 pub use primary::*;
 pub use scatterer::{Connection, Scatterer};

@@ -6,7 +6,7 @@
 //! current states, one for proposals. Where a path ended, its coordinates end: deeper ones are uniform whatever the
 //! state, so they are drawn afresh when a proposal gets there.
 
-use super::draws::VertexCoordinates;
+use super::draws::{CoordinateSet, VertexCoordinates};
 use crate::columns;
 use crate::table::{Rows, Table};
 use bevy_ecs::component::Component;
@@ -44,11 +44,13 @@ columns! {
     pub PrimaryScatter: [u32; 2];
     /// Plays roulette after the vertex, in units of 2⁻³².
     pub PrimaryRoulette: u32;
+    /// Chooses between lobes at the vertex, in units of 2⁻³².
+    pub PrimaryLobe: u32;
     /// Chains whose new vertex needs primary coordinates.
     pub DrawList: u32;
 }
 
-/// The coordinates of vertices, as slices. Those of lights and of roulette are empty where the plan has none.
+/// The coordinates of vertices, as slices. Those of lights, roulette and lobes are empty where the plan has none.
 #[derive(Clone, Copy)]
 pub struct CoordinateColumns<'a> {
     /// Choices of lights.
@@ -59,9 +61,20 @@ pub struct CoordinateColumns<'a> {
     pub scatter: &'a [PrimaryScatter],
     /// Roulette.
     pub roulette: &'a [PrimaryRoulette],
+    /// Lobes.
+    pub lobe: &'a [PrimaryLobe],
 }
 
 impl CoordinateColumns<'_> {
+    /// Which coordinates there are.
+    #[must_use]
+    pub const fn set(&self) -> CoordinateSet {
+        CoordinateSet {
+            lights: !self.choice.is_empty(),
+            lobes: !self.lobe.is_empty(),
+        }
+    }
+
     /// The coordinates number `index`.
     #[inline]
     #[must_use]
@@ -76,6 +89,7 @@ impl CoordinateColumns<'_> {
             } else {
                 self.roulette.at(index)
             },
+            lobe: if self.lobe.is_empty() { 0 } else { self.lobe.at(index) },
         }
     }
 }
@@ -90,6 +104,8 @@ pub struct CoordinateColumnsMut<'a> {
     pub scatter: &'a mut [PrimaryScatter],
     /// Roulette.
     pub roulette: &'a mut [PrimaryRoulette],
+    /// Lobes.
+    pub lobe: &'a mut [PrimaryLobe],
 }
 
 impl CoordinateColumnsMut<'_> {
@@ -101,6 +117,7 @@ impl CoordinateColumnsMut<'_> {
             light: self.light,
             scatter: self.scatter,
             roulette: self.roulette,
+            lobe: self.lobe,
         }
     }
 
@@ -114,6 +131,9 @@ impl CoordinateColumnsMut<'_> {
         self.scatter.put(index, coordinates.scatter);
         if !self.roulette.is_empty() {
             self.roulette.put(index, coordinates.roulette);
+        }
+        if !self.lobe.is_empty() {
+            self.lobe.put(index, coordinates.lobe);
         }
     }
 }

@@ -4,9 +4,9 @@ use super::draws::LightDraw;
 use super::mis;
 use crate::color::Rgb;
 use crate::geometry::offset_origin;
-use crate::material::{Frame, Scattered};
+use crate::material::{Frame, Scattered, Transport};
 use crate::scene::Scene;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// A surface point that scatters, as its path sees it.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +21,10 @@ pub struct Scatterer {
     pub offset: f32,
     /// Material number.
     pub material: u32,
+    /// Texture coordinates; zero where the plan keeps none.
+    pub uv: Vec2,
+    /// Unit tangent, orthogonal to the shading normal; zero where the plan keeps none, and any will do.
+    pub tangent: Vec3,
     /// Unit direction in which the path arrived.
     pub direction: Vec3,
 }
@@ -47,12 +51,23 @@ impl Scatterer {
         shading * geometric > 0.0
     }
 
+    /// The local frame of materials.
+    #[inline]
+    #[must_use]
+    pub fn frame(&self) -> Frame {
+        if self.tangent == Vec3::ZERO {
+            Frame::new(self.shading_normal)
+        } else {
+            Frame::with_tangent(self.shading_normal, self.tangent)
+        }
+    }
+
     /// Scatters the path: `sample` draws in the local frame, given the local direction back along the path. The world
     /// direction in which the path goes on, and what was drawn; `None` if the path ends here.
     #[inline]
     #[must_use]
     pub fn scatter(&self, sample: impl FnOnce(Vec3) -> Option<Scattered>) -> Option<(Vec3, Scattered)> {
-        let frame = Frame::new(self.shading_normal);
+        let frame = self.frame();
         let outcome = sample(frame.to_local(-self.direction))?;
         let direction = frame.to_world(outcome.wo).normalize();
         // Reflection stays on its side and refraction crosses, on the shading surface as on the real one.
@@ -67,9 +82,11 @@ impl Scatterer {
         if !self.sides_agree(light.direction) {
             return None;
         }
-        let frame = Frame::new(self.shading_normal);
+        let frame = self.frame();
         let (wi, wo) = (frame.to_local(-self.direction), frame.to_local(light.direction));
-        let scattering = scene.materials.evaluate(self.material, wi, wo);
+        let scattering = scene
+            .materials
+            .evaluate(self.material, self.uv, wi, wo, Transport::Radiance);
         if scattering.value.is_black() {
             return None;
         }

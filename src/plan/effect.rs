@@ -28,6 +28,27 @@ impl Effect {
         Self::Refraction,
     ];
 
+    /// The effect that materials of a model bring.
+    #[must_use]
+    pub const fn of(kind: MaterialKind) -> Self {
+        match kind {
+            MaterialKind::Diffuse => Self::DiffuseReflection,
+            MaterialKind::Conductor => Self::SpecularReflection,
+            MaterialKind::Dielectric => Self::Refraction,
+        }
+    }
+
+    /// Why a scatter system runs where the effect is on.
+    #[must_use]
+    pub(super) const fn reason(self) -> &'static str {
+        match self {
+            Self::DiffuseReflection => "a shape has a diffuse material",
+            Self::SpecularReflection => "a shape has a conductor material",
+            Self::Refraction => "a shape has a dielectric material",
+            Self::Emission | Self::DirectLight => "light arrives",
+        }
+    }
+
     /// The effect's name as plans print it.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -93,9 +114,7 @@ fn decide(scene: &Scene, effect: Effect) -> (bool, String) {
                 (true, format!("lights can be sampled from {}", list(&used)))
             }
         }
-        Effect::DiffuseReflection => by_kind(scene, MaterialKind::Diffuse),
-        Effect::SpecularReflection => by_kind(scene, MaterialKind::Conductor),
-        Effect::Refraction => by_kind(scene, MaterialKind::Dielectric),
+        Effect::DiffuseReflection | Effect::SpecularReflection | Effect::Refraction => by_kind(scene, effect),
     }
 }
 
@@ -104,12 +123,15 @@ fn emitters(scene: &Scene) -> String {
     format!("{} emitting primitives: {}", scene.lights.len(), list(&names))
 }
 
-fn by_kind(scene: &Scene, kind: MaterialKind) -> (bool, String) {
-    let used = materials(scene, |k| k == kind);
+/// Effects that materials of some models bring.
+fn by_kind(scene: &Scene, effect: Effect) -> (bool, String) {
+    let kinds = || MaterialKind::ALL.iter().filter(|&&kind| Effect::of(kind) == effect);
+    let used = materials(scene, |kind| Effect::of(kind) == effect);
+    let names: Vec<&str> = kinds().map(|kind| kind.name()).collect();
     if used.is_empty() {
-        (false, format!("no shape has a {} material", kind.name()))
+        (false, format!("no shape has a {} material", names.join(" or ")))
     } else {
-        (true, format!("{}: {}", kind.name(), list(&used)))
+        (true, format!("{}: {}", names.join(", "), list(&used)))
     }
 }
 

@@ -6,16 +6,28 @@ use super::{Effect, SystemPlan, SystemSpec, TableId, TablePlan};
 use crate::geometry::{
     HitDistance, HitInstance, HitPrimitive, HitUv, RayDirection, RayOrigin, SegmentTarget, SegmentTransmittance,
 };
+use crate::material::MaterialKind;
 use crate::path::*;
 use crate::scene::Scene;
 use crate::systems::list::*;
+use crate::systems::trace::scatter_system;
 
 /// Whether paths go beyond the first surface they meet.
 pub(super) fn scatters(effects: &[EffectPlan]) -> bool {
-    use Effect::{DiffuseReflection, Refraction, SpecularReflection};
-    [DiffuseReflection, SpecularReflection, Refraction]
-        .into_iter()
-        .any(|effect| is_on(effects, effect))
+    MaterialKind::ALL.iter().any(|&kind| is_on(effects, Effect::of(kind)))
+}
+
+/// Whether some paths cross interfaces between media.
+fn refracts(effects: &[EffectPlan]) -> bool {
+    is_on(effects, Effect::Refraction)
+}
+
+/// The lists of chains that wait to be scattered: one per model.
+fn scatter_lists(scene: &Scene) -> TablePlan {
+    let models = scene.materials.kinds().len() as u32;
+    let mut table = TablePlan::new(TableId::SCATTER, Extent::PerChain(models));
+    table.column::<ScatterList>("one scatter system per material model");
+    table
 }
 
 pub(super) fn systems(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> {
@@ -42,21 +54,10 @@ pub(super) fn systems(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> 
         TRANSMIT_SEGMENTS,
         "what stands between vertex and light has to be known",
     );
-    add(
-        is_on(effects, Effect::DiffuseReflection),
-        SCATTER_DIFFUSE,
-        "a shape has a diffuse material",
-    );
-    add(
-        is_on(effects, Effect::SpecularReflection),
-        SCATTER_CONDUCTOR,
-        "a shape has a conductor material",
-    );
-    add(
-        is_on(effects, Effect::Refraction),
-        SCATTER_DIELECTRIC,
-        "a shape has a dielectric material",
-    );
+    for &kind in scene.materials.kinds() {
+        let effect = Effect::of(kind);
+        add(is_on(effects, effect), scatter_system(kind), effect.reason());
+    }
     let roulette = scene.max_depth > roulette::FIRST_DEPTH;
     let reason = if roulette {
         "paths go on, beyond depth 5 by roulette"
@@ -81,6 +82,9 @@ pub(super) fn tables(scene: &Scene, effects: &[EffectPlan]) -> Vec<TablePlan> {
         tables.push(proposals(scene, effects));
         tables.push(rays(effects));
     }
+    if scatters(effects) {
+        tables.push(scatter_lists(scene));
+    }
     tables
 }
 
@@ -95,16 +99,8 @@ fn chains(effects: &[EffectPlan]) -> TablePlan {
     if is_on(effects, Effect::DirectLight) {
         table.column::<ConnectList>("vertices that wait for a light");
     }
-    if is_on(effects, Effect::DiffuseReflection) {
-        table.column::<DiffuseList>("one scatter system per material model");
-    }
-    if is_on(effects, Effect::SpecularReflection) {
-        table.column::<ConductorList>("one scatter system per material model");
-    }
-    if is_on(effects, Effect::Refraction) {
-        table
-            .column::<DielectricList>("one scatter system per material model")
-            .column::<RadianceScale>("roulette must not take the scale of refraction for a loss");
+    if refracts(effects) {
+        table.column::<RadianceScale>("roulette must not take the scale of refraction for a loss");
     }
     if scatters(effects) {
         table
@@ -131,6 +127,13 @@ fn proposals(scene: &Scene, effects: &[EffectPlan]) -> TablePlan {
             .column::<VertexInstance>("the path is kept by its surfaces, for what will change or replay it")
             .column::<VertexPrimitive>("the path is kept by its surfaces, for what will change or replay it")
             .column::<VertexUv>("the path is kept by its surfaces, for what will change or replay it");
+        let needs = scene.materials.needs();
+        if needs.textures {
+            table.column::<VertexTexture>("some material has a texture");
+        }
+        if needs.tangents {
+            table.column::<VertexTangent>("some material is not the same all around");
+        }
     }
     if is_on(effects, Effect::DirectLight) {
         table.column::<VertexConnection>("light connected to");

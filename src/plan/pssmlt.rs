@@ -73,6 +73,9 @@ fn coordinates(id: TableId, scene: &Scene, effects: &[EffectPlan]) -> TablePlan 
             .column::<PrimaryChoice>("which light it is connected to")
             .column::<PrimaryLight>("where on the light");
     }
+    if scene.materials.choose_lobes() {
+        table.column::<PrimaryLobe>("which lobe of a material it scatters into");
+    }
     if last >= roulette::FIRST_DEPTH {
         table.column::<PrimaryRoulette>("whether the path goes on");
     }

@@ -31,6 +31,8 @@ impl TableId {
     pub const CHAINS: Self = Self::of::<ChainTable>("chains");
     /// One entry per vertex of a proposed path and chain, bounce-major.
     pub const PROPOSALS: Self = Self::of::<ProposalTable>("proposal vertices");
+    /// Chains that wait to be scattered, by material model.
+    pub const SCATTER: Self = Self::of::<ScatterTable>("scatter lists");
     /// One entry per ray or segment in flight.
     pub const RAYS: Self = Self::of::<RayTable>("rays");
 

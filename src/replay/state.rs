@@ -138,6 +138,7 @@ pub(super) fn coordinates<T: Table>(world: &mut TileWorld, depth: u32, capacity:
             light: value::<PrimaryLight, T>(world, index).unwrap_or_default(),
             scatter: value::<PrimaryScatter, T>(world, index).unwrap_or_default(),
             roulette: value::<PrimaryRoulette, T>(world, index).unwrap_or_default(),
+            lobe: value::<PrimaryLobe, T>(world, index).unwrap_or_default(),
         };
         let light = choice.map(|_| bits.light_draw());
         Coordinates {

@@ -29,8 +29,14 @@ impl Purpose {
     pub const PERTURB: Self = Self(6);
     /// Choice of the seeds among the samples of a group's bootstrap.
     pub const RESAMPLE: Self = Self(7);
-    /// Where on the lens.
-    pub const LENS: Self = Self(8);
+    /// Choice of a lobe at the vertex of the given depth.
+    pub const LOBE: Self = Self(8);
+    /// Where on the lens a path starts.
+    pub const LENS: Self = Self(9);
+    /// Choice of a light to start a path at, of a point on it, and of a direction.
+    pub const EMISSION: Self = Self(10);
+    /// Choice of the pixel that a light path's splat counts for, at the vertex of the given depth.
+    pub const SPLAT: Self = Self(11);
 
     /// A purpose of a system outside this crate, by a name that no other system uses: a hash of it (FNV-1a), apart from all
     /// of the above.

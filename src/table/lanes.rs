@@ -2,7 +2,7 @@
 
 use crate::color::Rgb;
 use bytemuck::{Pod, Zeroable};
-use glam::{DVec2, Vec3};
+use glam::{DVec2, Vec2, Vec3};
 
 /// Chains (or rays) in one row of a table.
 pub const LANES: usize = 16;
@@ -113,6 +113,26 @@ impl LaneValue for [u64; 2] {
         let l = lane % LANES;
         store.0[0].0[l] = value[0];
         store.0[1].0[l] = value[1];
+    }
+}
+
+/// Sixteen pairs of `f32`, component by component.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C, align(64))]
+pub struct Lanes2(pub [LanesF32; 2]);
+
+impl LaneValue for Vec2 {
+    type Store = Lanes2;
+    #[inline]
+    fn load(store: &Lanes2, lane: usize) -> Self {
+        let l = lane % LANES;
+        Self::new(store.0[0].0[l], store.0[1].0[l])
+    }
+    #[inline]
+    fn store(store: &mut Lanes2, lane: usize, value: Self) {
+        let l = lane % LANES;
+        store.0[0].0[l] = value.x;
+        store.0[1].0[l] = value.y;
     }
 }
 

@@ -162,7 +162,7 @@ pub fn draw_small_steps(
     let (list, chosen, lengths, keys) = (list.rows(), chosen.rows(), lengths.rows(), keys.columns());
     let (current_depths, current) = (current_depths.rows(), current.columns());
     let (mut proposed, depths, common) = (proposed.columns(), depths.rows(), common.rows());
-    let lights = !current.choice.is_empty();
+    let set = current.set();
     for entry in 0..queues.draw {
         let chain = list.at(entry) as usize;
         if chosen.at(chain) as usize != mutation.number {
@@ -174,10 +174,7 @@ pub fn draw_small_steps(
             let from = current.at(vertex);
             let moved = from.perturbed(&kernel, key, depth);
             if !common.is_empty() {
-                common.put(
-                    chain,
-                    common.at(chain) + from.log_density(&kernel, moved, depth, lights),
-                );
+                common.put(chain, common.at(chain) + from.log_density(&kernel, moved, depth, set));
             }
             moved
         } else {

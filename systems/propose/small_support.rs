@@ -83,7 +83,7 @@ pub fn weigh_small_supports(
     mut densities: Write<SupportDensity, ChainTable>,
 ) {
     let log_length = libm::log(mutation.settings.kernel().support_length());
-    let lights = !current.columns().choice.is_empty();
+    let set = current.columns().set();
     let (list, current_depths, depths, densities) =
         (list.rows(), current_depths.rows(), depths.rows(), densities.rows());
     for entry in lists.entries(mutation.number) {
@@ -91,7 +91,7 @@ pub fn weigh_small_supports(
         let shared = current_depths.at(chain).min(depths.at(chain));
         let count = FilmCoordinates::COUNT
             + (1..=shared)
-                .map(|depth| VertexCoordinates::count(depth, lights))
+                .map(|depth| VertexCoordinates::count(depth, set))
                 .sum::<u32>();
         densities.put(chain, -log_length * f64::from(count));
     }

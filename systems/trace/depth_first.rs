@@ -7,9 +7,9 @@ use crate::chain::StateClass;
 use crate::color::Rgb;
 use crate::geometry::{
     Hit, HitColumns, HitDistance, HitInstance, HitPrimitive, HitUv, NO_HIT, NOT_EMITTING, RayColumns, RayDirection,
-    RayOrigin, SegmentColumns, SegmentTarget, SegmentTransmittance, SurfacePoint, offset_origin,
+    RayOrigin, SegmentColumns, SegmentTarget, SegmentTransmittance, SurfacePoint, TexturePoint, offset_origin,
 };
-use crate::material::MaterialKind;
+use crate::material::{ScatterDraw, Transport};
 use crate::path::*;
 use crate::scene::Scene;
 use crate::table::{Read, Rows, Write};
@@ -95,7 +95,7 @@ impl<'a> Tracer<'a> {
         let (mut density, mut kind) = (0.0, VERTEX_LENS);
         let mut brightest = Brightest::default();
         for depth in 1..=scene.max_depth {
-            let Some(point) = self.closest(origin, direction) else {
+            let Some((hit, point)) = self.closest(origin, direction) else {
                 break;
             };
             self.counters.vertices += 1;
@@ -105,16 +105,21 @@ impl<'a> Tracer<'a> {
                 brightest.see(met, Rgb::BLACK, depth, false);
                 break;
             }
+            let front = point.geometric_normal.dot(direction) < 0.0;
+            let material = scene.materials.facing(point.material, front);
+            let local = local_coordinates(scene, hit);
             let scatterer = Scatterer {
                 position: point.position,
                 normal: point.geometric_normal,
                 shading_normal: point.shading_normal,
                 offset: point.offset,
-                material: point.material,
+                material,
+                uv: local.uv,
+                tangent: local.tangent,
                 direction,
             };
             draws.reach(depth);
-            let model = scene.materials.kind(point.material);
+            let model = scene.materials.kind(material);
             let mut connected = Rgb::BLACK;
             if !model.is_discrete()
                 && let Some(connection) = scatterer.connect(scene, draws.light(depth))
@@ -123,14 +128,13 @@ impl<'a> Tracer<'a> {
                 connected = throughput * (connection.value * passed);
                 radiance += connected;
             }
-            let outcome = scatterer.scatter(|wi| match model {
-                MaterialKind::Diffuse => scene.materials.sample_diffuse(point.material, wi, draws.scatter(depth)),
-                MaterialKind::Conductor => scene.materials.sample_conductor(point.material, wi),
-                MaterialKind::Dielectric => {
-                    scene
-                        .materials
-                        .sample_dielectric(point.material, wi, draws.scatter(depth)[0])
-                }
+            let outcome = scatterer.scatter(|wi| {
+                let draw = ScatterDraw {
+                    direction: draws.scatter(depth),
+                    lobe: if model.chooses_lobes() { draws.lobe(depth) } else { 0.0 },
+                };
+                let materials = &scene.materials;
+                materials.sample(material, scatterer.uv, wi, draw, Transport::Radiance)
             });
             let discrete = outcome.as_ref().is_some_and(|(_, outcome)| outcome.discrete);
             brightest.see(met, connected, depth, discrete);
@@ -173,7 +177,7 @@ impl<'a> Tracer<'a> {
         emitted * mis::power_heuristic(density, sampled)
     }
 
-    fn closest(&mut self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
+    fn closest(&mut self, origin: Vec3, direction: Vec3) -> Option<(Hit, SurfacePoint)> {
         self.origin.put(0, origin);
         self.direction.put(0, direction);
         let rays = RayColumns {
@@ -196,7 +200,7 @@ impl<'a> Tracer<'a> {
                 primitive: self.primitive.at(0),
                 uv: self.uv.at(0),
             };
-            self.scene.geometry.surface_point(hit)
+            (hit, self.scene.geometry.surface_point(hit))
         })
     }
 
@@ -211,5 +215,18 @@ impl<'a> Tracer<'a> {
         self.scene.geometry.transmittances(segments, self.transmittance);
         self.counters.segments += 1;
         self.transmittance.at(0)
+    }
+}
+
+/// Texture coordinates and tangent, each where some material asks for it.
+fn local_coordinates(scene: &Scene, hit: Hit) -> TexturePoint {
+    let needs = scene.materials.needs();
+    if !(needs.textures || needs.tangents) {
+        return TexturePoint::NONE;
+    }
+    let local = scene.geometry.texture_point(hit);
+    TexturePoint {
+        uv: if needs.textures { local.uv } else { Vec2::ZERO },
+        tangent: if needs.tangents { local.tangent } else { Vec3::ZERO },
     }
 }

@@ -2,9 +2,10 @@
 //! elsewhere.
 
 use super::super::tile::TilePlace;
+use crate::material::ScatterDraw;
 use crate::path::{
     ChainKey, ChainTable, CoordinateColumns, CoordinateColumnsMut, KeyedDraws, LightDraw, PathDraws, PrimaryChoice,
-    PrimaryLight, PrimaryRoulette, PrimaryScatter, PrimaryTable, ProposedPrimaryTable,
+    PrimaryLight, PrimaryLobe, PrimaryRoulette, PrimaryScatter, PrimaryTable, ProposedPrimaryTable,
 };
 use crate::table::{Read, Rows, Table, Write};
 use bevy_ecs::system::SystemParam;
@@ -16,6 +17,7 @@ pub struct Coordinates<'w, 's, T: Table> {
     light: Read<'w, 's, PrimaryLight, T>,
     scatter: Read<'w, 's, PrimaryScatter, T>,
     roulette: Read<'w, 's, PrimaryRoulette, T>,
+    lobe: Read<'w, 's, PrimaryLobe, T>,
 }
 
 /// The coordinates of current states.
@@ -32,6 +34,7 @@ impl<T: Table> Coordinates<'_, '_, T> {
             light: self.light.rows(),
             scatter: self.scatter.rows(),
             roulette: self.roulette.rows(),
+            lobe: self.lobe.rows(),
         }
     }
 }
@@ -43,6 +46,7 @@ pub struct CoordinatesMut<'w, 's, T: Table> {
     light: Write<'w, 's, PrimaryLight, T>,
     scatter: Write<'w, 's, PrimaryScatter, T>,
     roulette: Write<'w, 's, PrimaryRoulette, T>,
+    lobe: Write<'w, 's, PrimaryLobe, T>,
 }
 
 impl<T: Table> CoordinatesMut<'_, '_, T> {
@@ -54,6 +58,7 @@ impl<T: Table> CoordinatesMut<'_, '_, T> {
             light: self.light.rows(),
             scatter: self.scatter.rows(),
             roulette: self.roulette.rows(),
+            lobe: self.lobe.rows(),
         }
     }
 }
@@ -96,14 +101,22 @@ impl DrawColumns<'_> {
         }
     }
 
-    /// The numbers that scatter at the vertex at `depth` of `chain`.
+    /// The numbers that scatter at the vertex at `depth` of `chain`, with one to choose a `lobe` if that is asked for.
     #[inline]
     #[must_use]
-    pub fn scatter(&self, chain: usize, depth: u32) -> [f32; 2] {
+    pub fn scatter(&self, chain: usize, depth: u32, lobe: bool) -> ScatterDraw {
         if self.coordinates.scatter.is_empty() {
-            self.keyed(chain).scatter(depth)
+            let mut keyed = self.keyed(chain);
+            ScatterDraw {
+                direction: keyed.scatter(depth),
+                lobe: if lobe { keyed.lobe(depth) } else { 0.0 },
+            }
         } else {
-            self.coordinates.at(self.place.vertex(chain, depth - 1)).scatter_draw()
+            let coordinates = self.coordinates.at(self.place.vertex(chain, depth - 1));
+            ScatterDraw {
+                direction: coordinates.scatter_draw(),
+                lobe: if lobe { coordinates.lobe_draw() } else { 0.0 },
+            }
         }
     }
 

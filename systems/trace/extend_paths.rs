@@ -3,7 +3,6 @@
 use super::super::tile::{Counters, Queues, SceneRef, TilePlace, connectable};
 use crate::color::Rgb;
 use crate::geometry::{Hit, HitInstance, HitPrimitive, HitUv, NO_HIT, NOT_EMITTING};
-use crate::material::MaterialKind;
 use crate::path::*;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut, SystemParam};
@@ -34,15 +33,15 @@ pub struct Vertices<'w, 's> {
     instances: Write<'w, 's, VertexInstance, ProposalTable>,
     primitives: Write<'w, 's, VertexPrimitive, ProposalTable>,
     uvs: Write<'w, 's, VertexUv, ProposalTable>,
+    textures: Write<'w, 's, VertexTexture, ProposalTable>,
+    tangents: Write<'w, 's, VertexTangent, ProposalTable>,
 }
 
 /// The lists that it fills.
 #[derive(SystemParam)]
 pub struct Lists<'w, 's> {
     connect: Write<'w, 's, ConnectList, ChainTable>,
-    diffuse: Write<'w, 's, DiffuseList, ChainTable>,
-    conductor: Write<'w, 's, ConductorList, ChainTable>,
-    dielectric: Write<'w, 's, DielectricList, ChainTable>,
+    scatter: Write<'w, 's, ScatterList, ScatterTable>,
     draw: Write<'w, 's, DrawList, ChainTable>,
 }
 
@@ -80,8 +79,8 @@ pub fn extend_paths(
         vertices.primitives.rows(),
         vertices.uvs.rows(),
     );
-    let (connect, draw) = (lists.connect.rows(), lists.draw.rows());
-    let (diffuse, conductor, dielectric) = (lists.diffuse.rows(), lists.conductor.rows(), lists.dielectric.rows());
+    let (textures, tangents) = (vertices.textures.rows(), vertices.tangents.rows());
+    let (connect, draw, scatter) = (lists.connect.rows(), lists.draw.rows(), lists.scatter.rows());
     for ray in 0..queues.rays {
         let instance = instances.at(ray);
         if instance == NO_HIT {
@@ -125,10 +124,21 @@ pub fn extend_paths(
             continue;
         }
         shading_normals.put(vertex, point.shading_normal);
-        materials.put(vertex, point.material);
+        let front = point.geometric_normal.dot(direction) < 0.0;
+        let material = scene.materials.facing(point.material, front);
+        materials.put(vertex, material);
         names.0.put(vertex, hit.instance);
         names.1.put(vertex, hit.primitive);
         names.2.put(vertex, hit.uv);
+        if !(textures.is_empty() && tangents.is_empty()) {
+            let local = scene.geometry.texture_point(hit);
+            if !textures.is_empty() {
+                textures.put(vertex, local.uv);
+            }
+            if !tangents.is_empty() {
+                tangents.put(vertex, local.tangent);
+            }
+        }
 
         if depth >= scene.max_depth {
             continue;
@@ -137,23 +147,15 @@ pub fn extend_paths(
             draw.put(queues.draw, chain as u32);
             queues.draw += 1;
         }
-        let kind = scene.materials.kind(point.material);
+        let kind = scene.materials.kind(material);
         if !kind.is_discrete() && !connections.is_empty() {
             connect.put(queues.connect, chain as u32);
             queues.connect += 1;
         }
-        match kind {
-            MaterialKind::Diffuse => push(diffuse, &mut queues.diffuse, chain),
-            MaterialKind::Conductor => push(conductor, &mut queues.conductor, chain),
-            MaterialKind::Dielectric => push(dielectric, &mut queues.dielectric, chain),
+        if let Some(model) = scene.materials.model(kind) {
+            scatter.put(place.vertex(queues.scatter[model], model as u32), chain as u32);
+            queues.scatter[model] += 1;
         }
     }
     queues.rays = 0;
-}
-
-/// Appends a chain to a dense list.
-#[inline]
-fn push<C: crate::table::Column<Value = u32>>(list: &mut [C], len: &mut usize, chain: usize) {
-    list.put(*len, chain as u32);
-    *len += 1;
 }

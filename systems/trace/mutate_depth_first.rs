@@ -99,6 +99,11 @@ impl PathDraws for MovedDraws<'_, '_> {
     }
 
     #[inline]
+    fn lobe(&mut self, _: u32) -> f32 {
+        self.here.lobe_draw()
+    }
+
+    #[inline]
     fn roulette(&mut self, _: u32) -> f32 {
         self.here.roulette_draw()
     }

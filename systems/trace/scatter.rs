@@ -5,6 +5,7 @@ use crate::material::Scattered;
 use crate::path::*;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::SystemParam;
+use glam::{Vec2, Vec3};
 
 /// The columns that describe the surface point a chain stands on.
 #[derive(SystemParam)]
@@ -22,6 +23,8 @@ struct Surface<'w, 's> {
     shading_normals: Read<'w, 's, VertexShadingNormal, ProposalTable>,
     offsets: Read<'w, 's, VertexOffset, ProposalTable>,
     materials: Read<'w, 's, VertexMaterial, ProposalTable>,
+    uvs: Read<'w, 's, VertexTexture, ProposalTable>,
+    tangents: Read<'w, 's, VertexTangent, ProposalTable>,
 }
 
 /// [`Scatterers`] as slices.
@@ -37,6 +40,8 @@ struct SurfaceColumns<'a> {
     shading_normals: &'a [VertexShadingNormal],
     offsets: &'a [VertexOffset],
     materials: &'a [VertexMaterial],
+    uvs: &'a [VertexTexture],
+    tangents: &'a [VertexTangent],
 }
 
 impl Surface<'_, '_> {
@@ -47,6 +52,8 @@ impl Surface<'_, '_> {
             shading_normals: self.shading_normals.rows(),
             offsets: self.offsets.rows(),
             materials: self.materials.rows(),
+            uvs: self.uvs.rows(),
+            tangents: self.tangents.rows(),
         }
     }
 }
@@ -64,13 +71,23 @@ impl Scatterers<'_, '_> {
 
 impl SurfaceColumns<'_> {
     #[inline]
-    fn at(&self, vertex: usize, direction: glam::Vec3) -> Scatterer {
+    fn at(&self, vertex: usize, direction: Vec3) -> Scatterer {
         Scatterer {
             position: self.positions.at(vertex),
             normal: self.normals.at(vertex),
             shading_normal: self.shading_normals.at(vertex),
             offset: self.offsets.at(vertex),
             material: self.materials.at(vertex),
+            uv: if self.uvs.is_empty() {
+                Vec2::ZERO
+            } else {
+                self.uvs.at(vertex)
+            },
+            tangent: if self.tangents.is_empty() {
+                Vec3::ZERO
+            } else {
+                self.tangents.at(vertex)
+            },
             direction,
         }
     }
@@ -101,7 +118,7 @@ pub struct Outcomes<'w, 's> {
 }
 
 impl Outcomes<'_, '_> {
-    /// Scatters the listed chains, `count` of them: `sample` draws a direction for a material number, a local incoming
+    /// Scatters the listed chains, `count` of them: `sample` draws a direction for a surface point, a local incoming
     /// direction, a chain and a depth. A path that is absorbed, or whose direction leaks through the surface, ends.
     #[inline]
     pub fn scatter(
@@ -110,7 +127,7 @@ impl Outcomes<'_, '_> {
         queues: &mut Queues,
         count: usize,
         list: impl Fn(usize) -> u32,
-        sample: impl Fn(u32, glam::Vec3, usize, u32) -> Option<Scattered>,
+        sample: impl Fn(&Scatterer, Vec3, usize, u32) -> Option<Scattered>,
     ) {
         let (lengths, surface) = (self.lengths.rows(), self.surface.columns());
         let (kinds, ratios, densities) = (self.kinds.rows(), self.ratios.rows(), self.densities.rows());
@@ -121,8 +138,7 @@ impl Outcomes<'_, '_> {
             let depth = lengths.at(chain);
             let vertex = place.vertex(chain, depth);
             let scatterer = surface.at(vertex, directions.at(chain));
-            let Some((direction, outcome)) = scatterer.scatter(|wi| sample(scatterer.material, wi, chain, depth))
-            else {
+            let Some((direction, outcome)) = scatterer.scatter(|wi| sample(&scatterer, wi, chain, depth)) else {
                 continue;
             };
             if outcome.discrete {

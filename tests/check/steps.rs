@@ -4,8 +4,8 @@ use bevy_ecs::schedule::IntoScheduleConfigs;
 use bevy_ecs::system::Res;
 use chainlight::chain::{ChosenMutation, CommonDensity, ForwardDensity, Kernel, MutationList, SupportDensity};
 use chainlight::path::{
-    ChainTable, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth, ProposedPrimaryTable,
-    VertexCoordinates,
+    ChainTable, CoordinateSet, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth,
+    ProposedPrimaryTable, VertexCoordinates,
 };
 use chainlight::plan::{InPlan, Mutation, Place, Region, Registered, Stage, SystemPlan, SystemSpec, TraceStep};
 use chainlight::sampling::StreamKey;
@@ -40,8 +40,8 @@ pub struct Reached {
     pub depth: u32,
     /// Whether it is the first one that the current path does not have.
     pub grows: bool,
-    /// Whether vertices are connected to lights.
-    pub lights: bool,
+    /// Which coordinates vertices have.
+    pub set: CoordinateSet,
 }
 
 /// How coordinates are proposed: a small step, but for what a twin does otherwise.
@@ -57,7 +57,7 @@ pub trait Steps: Mutation {
 
     fn shared(&self, from: VertexCoordinates, at: Reached, key: StreamKey) -> Move<VertexCoordinates> {
         let to = from.perturbed(&self.kernel(), key, at.depth);
-        Move::new(to, from.log_density(&self.kernel(), to, at.depth, at.lights))
+        Move::new(to, from.log_density(&self.kernel(), to, at.depth, at.set))
     }
 
     fn beyond(&self, at: Reached, key: StreamKey) -> Move<VertexCoordinates> {
@@ -144,7 +144,7 @@ fn draw_steps<M: Steps>(
         let at = Reached {
             depth,
             grows: depth == current_depths.at(chain) + 1,
-            lights: !current.choice.is_empty(),
+            set: current.set(),
         };
         let moved = if depth <= current_depths.at(chain) {
             mutation.settings.shared(current.at(vertex), at, keys.at(chain))
@@ -220,11 +220,11 @@ fn weigh_supports<M: Steps>(
     mut densities: Write<SupportDensity, ChainTable>,
 ) {
     let log_length = libm::log(mutation.settings.kernel().support_length());
-    let lights = !current.columns().choice.is_empty();
+    let set = current.columns().set();
     let (current_depths, depths, densities) = (current_depths.rows(), depths.rows(), densities.rows());
     for chain in 0..place.chains as usize {
         let shared = current_depths.at(chain).min(depths.at(chain));
-        let vertices = (1..=shared).map(|depth| VertexCoordinates::count(depth, lights));
+        let vertices = (1..=shared).map(|depth| VertexCoordinates::count(depth, set));
         let count = FilmCoordinates::COUNT + vertices.sum::<u32>();
         densities.put(chain, -log_length * f64::from(count));
     }

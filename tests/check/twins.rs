@@ -168,6 +168,7 @@ impl Steps for Forgetful {
             light: [1 << 31; 2],
             scatter: [1 << 31; 2],
             roulette: if plays { 1 << 31 } else { 0 },
+            lobe: 1 << 31,
         };
         Move::new(to, 0.0)
     }

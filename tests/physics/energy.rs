@@ -1,6 +1,7 @@
 //! No material makes light, and none makes nonsense, whatever its parameters.
 
 use crate::support::cells::{Grid, direction};
+use crate::support::materials::OnPlain;
 use chainlight::color::Rgb;
 use chainlight::material::conductor::Conductor;
 use chainlight::material::dielectric::Dielectric;
@@ -32,12 +33,12 @@ fn diffuse_surfaces_reflect_their_reflectance() {
     let grid = Grid::around([-1.0, 1.0]);
     for reflectance in [0.0, 0.3, 1.0] {
         let matt = Diffuse {
-            reflectance: Rgb::splat(reflectance),
+            reflectance: Rgb::splat(reflectance).into(),
             two_sided: true,
         };
         // Tiny cosines are left out: below 1e-19 their products with others vanish.
         for cosine in COSINES.into_iter().filter(|c| *c > 1e-19).flat_map(|c| [c, -c]) {
-            let value = |z, phi| f64::from(matt.evaluate(incoming(cosine), direction(z, phi).as_vec3()).value.g);
+            let value = |z, phi| f64::from(matt.value(incoming(cosine), direction(z, phi).as_vec3()).value.g);
             let albedo: f64 = grid.simpson(2, value).iter().sum();
             assert!((albedo - f64::from(reflectance)).abs() < 1e-6, "{cosine}: {albedo}");
         }
@@ -56,11 +57,13 @@ fn conductors_reflect_between_nothing_and_all() {
             let metal = Conductor {
                 eta: Rgb::splat(eta),
                 k: Rgb::splat(k),
-                reflectance: Rgb::ONE,
+                reflectance: Rgb::ONE.into(),
                 two_sided: true,
             };
             for cosine in COSINES.into_iter().flat_map(|c| [c, -c]) {
-                let ratio = metal.sample(incoming(cosine)).map_or(Rgb::BLACK, |sample| sample.ratio);
+                let ratio = metal
+                    .decide(incoming(cosine), 0.0)
+                    .map_or(Rgb::BLACK, |sample| sample.ratio);
                 assert!((0.0..=1.0).contains(&ratio.g), "{eta} {k} {cosine}: {ratio:?}");
             }
         }
@@ -98,7 +101,7 @@ fn dielectrics_pass_on_what_they_do_not_reflect() {
             let wi = incoming(cosine);
             // The power of each branch: its probability times its ratio, free of the scale of radiance.
             let power = |u| {
-                let sample = glass.sample(wi, u).expect("not grazing");
+                let sample = glass.decide(wi, u).expect("not grazing");
                 let share = sample.density * sample.ratio.g * sample.relative_ior * sample.relative_ior;
                 ((sample.wo.z > 0.0) == (wi.z > 0.0), share)
             };

@@ -49,6 +49,7 @@ fn coordinates<T: Table>(world: &mut TileWorld, depth: u32, chain: usize, capaci
             light: world.at::<PrimaryLight, T>(index).expect("a column"),
             scatter: world.at::<PrimaryScatter, T>(index).expect("a column"),
             roulette: world.at::<PrimaryRoulette, T>(index).expect("a column"),
+            lobe: world.at::<PrimaryLobe, T>(index).unwrap_or_default(),
         }
     };
     (0..depth).map(&mut at).collect()

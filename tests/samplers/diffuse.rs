@@ -3,6 +3,7 @@
 
 use crate::support::cells::{Grid, direction, height_and_angle};
 use crate::support::draws::stream;
+use crate::support::materials::OnPlain;
 use crate::support::verdict::Family;
 use chainlight::color::Rgb;
 use chainlight::material::diffuse::Diffuse;
@@ -20,7 +21,7 @@ const SEES: f64 = 0.016;
 
 fn matt(two_sided: bool) -> Diffuse {
     Diffuse {
-        reflectance: REFLECTANCE,
+        reflectance: REFLECTANCE.into(),
         two_sided,
     }
 }
@@ -32,7 +33,7 @@ fn incoming(cosine: f32) -> Vec3 {
 
 fn counts(case: usize, matt: &Diffuse, wi: Vec3, grid: &Grid) -> Vec<u64> {
     let mut stream = stream(200 + case);
-    let samples = (0..SAMPLES).filter_map(|_| matt.sample(wi, stream.next_pair()));
+    let samples = (0..SAMPLES).filter_map(|_| matt.scatter(wi, stream.next_pair()));
     grid.count(samples.map(|sample| height_and_angle(sample.wo)))
 }
 
@@ -43,7 +44,7 @@ fn directions_follow_the_density_that_evaluate_states() {
     for two_sided in [true, false] {
         for cosine in COSINES {
             let (matt, wi) = (matt(two_sided), incoming(cosine));
-            let density = |z, phi| f64::from(matt.evaluate(wi, direction(z, phi).as_vec3()).density);
+            let density = |z, phi| f64::from(matt.value(wi, direction(z, phi).as_vec3()).density);
             let probabilities = grid.simpson(4, density);
             let total: f64 = probabilities.iter().sum();
             let counts = counts(tests, &matt, wi, &grid);
@@ -75,10 +76,10 @@ fn samples_agree_with_evaluate() {
     for _ in 0..100_000 {
         let wi = warp::uniform_sphere(stream.next_pair());
         let matt = matt(true);
-        let Some(sample) = matt.sample(wi, stream.next_pair()) else {
+        let Some(sample) = matt.scatter(wi, stream.next_pair()) else {
             continue;
         };
-        let evaluated = matt.evaluate(wi, sample.wo);
+        let evaluated = matt.value(wi, sample.wo);
         assert!(!sample.discrete && sample.relative_ior == 1.0);
         assert_eq!(sample.density, evaluated.density);
         assert!((sample.wo.length() - 1.0).abs() < 1e-6);
@@ -101,8 +102,8 @@ fn reflection_is_reciprocal() {
                 warp::uniform_sphere(stream.next_pair()),
                 warp::uniform_sphere(stream.next_pair()),
             );
-            let there = matt.evaluate(a, b).value / b.z.abs();
-            let back = matt.evaluate(b, a).value / a.z.abs();
+            let there = matt.value(a, b).value / b.z.abs();
+            let back = matt.value(b, a).value / a.z.abs();
             for (there, back) in there.to_array().into_iter().zip(back.to_array()) {
                 assert!(
                     (there - back).abs() <= 4.0 * f32::EPSILON * there,

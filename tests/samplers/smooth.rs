@@ -2,6 +2,7 @@
 //! million choices for every interface and angle.
 
 use crate::support::draws::stream;
+use crate::support::materials::OnPlain;
 use crate::support::verdict::Family;
 use chainlight::color::Rgb;
 use chainlight::material::Scattered;
@@ -66,7 +67,7 @@ fn interfaces_reflect_as_often_as_fresnel_says() {
             let relative = f64::from(if cosine > 0.0 { n } else { 1.0 / n });
             let expected = reflectance(f64::from(cosine.abs()), relative);
             let mut stream = stream(case);
-            let samples = (0..SAMPLES).map(|_| glass.sample(wi, stream.next_f32()).expect("not grazing"));
+            let samples = (0..SAMPLES).map(|_| glass.decide(wi, stream.next_f32()).expect("not grazing"));
             let reflected = samples.filter(|sample| same_side(sample.wo, wi)).count() as u64;
             let counts = [reflected, SAMPLES as u64 - reflected];
             if expected * (1.0 - expected) * (SAMPLES as f64) < 5.0 {
@@ -122,7 +123,7 @@ fn refraction_follows_snell_and_reflection_its_law_at_every_angle() {
             let case = format!("index {n}, cosine {cosine}");
             let relative = if cosine > 0.0 { n } else { 1.0 / n };
             for u in [0.0, 0.02, 0.5, 1.0 - 0.5 * f32::EPSILON] {
-                let sample = glass.sample(wi, u).expect("not grazing");
+                let sample = glass.decide(wi, u).expect("not grazing");
                 assert_sound(&sample, &case);
                 if same_side(sample.wo, wi) {
                     assert_eq!(sample.wo, Vec3::new(-wi.x, -wi.y, wi.z), "{case}");
@@ -152,8 +153,8 @@ fn shares_of_reflection_and_refraction_make_one() {
         for cosine in sweep(n).into_iter().flat_map(|c| [c, -c]) {
             let (glass, wi) = (glass(n), incoming(cosine));
             let relative = f64::from(if cosine > 0.0 { n } else { 1.0 / n });
-            let often = glass.sample(wi, 1.0 - 0.5 * f32::EPSILON).expect("not grazing");
-            let rare = glass.sample(wi, 0.0).expect("not grazing");
+            let often = glass.decide(wi, 1.0 - 0.5 * f32::EPSILON).expect("not grazing");
+            let rare = glass.decide(wi, 0.0).expect("not grazing");
             let both = !same_side(often.wo, rare.wo);
             let sum = often.density + if both { rare.density } else { 0.0 };
             assert!((sum - 1.0).abs() <= f32::EPSILON, "{n} {cosine}: {sum}");
@@ -178,15 +179,15 @@ fn conductors_reflect_into_the_mirrored_direction_alone() {
     let metal = |two_sided| Conductor {
         eta: Rgb::new(0.2, 0.9, 1.1),
         k: Rgb::new(3.9, 2.4, 2.1),
-        reflectance: Rgb::new(1.0, 0.5, 0.0),
+        reflectance: Rgb::new(1.0, 0.5, 0.0).into(),
         two_sided,
     };
     for cosine in sweep(1.5).into_iter().flat_map(|c| [c, -c]) {
         let wi = incoming(cosine);
-        let sample = metal(true).sample(wi).expect("not grazing");
+        let sample = metal(true).decide(wi, 0.0).expect("not grazing");
         assert_sound(&sample, &format!("cosine {cosine}"));
         assert_eq!((sample.wo, sample.density), (Vec3::new(-wi.x, -wi.y, wi.z), 1.0));
-        let one_sided = metal(false).sample(wi);
+        let one_sided = metal(false).decide(wi, 0.0);
         assert_eq!(one_sided.is_some(), cosine > 0.0, "{cosine}");
         assert!(one_sided.is_none_or(|one| one == sample));
     }

@@ -3,6 +3,7 @@
 pub mod cells;
 pub mod chains;
 pub mod draws;
+pub mod materials;
 pub mod reference;
 pub mod render;
 pub mod scenes;
