@@ -16,16 +16,19 @@ pub enum Effect {
     SpecularReflection,
     /// Interfaces that reflect and refract.
     Refraction,
+    /// Colours that vary over a surface.
+    Textures,
 }
 
 impl Effect {
     /// Every effect.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Emission,
         Self::DirectLight,
         Self::DiffuseReflection,
         Self::SpecularReflection,
         Self::Refraction,
+        Self::Textures,
     ];
 
     /// The effect that materials of a model bring.
@@ -46,6 +49,7 @@ impl Effect {
             Self::SpecularReflection => "a shape has a conductor material",
             Self::Refraction => "a shape has a dielectric material",
             Self::Emission | Self::DirectLight => "light arrives",
+            Self::Textures => "some material has a texture",
         }
     }
 
@@ -58,6 +62,7 @@ impl Effect {
             Self::DiffuseReflection => "diffuse reflection",
             Self::SpecularReflection => "specular reflection",
             Self::Refraction => "refraction",
+            Self::Textures => "textures",
         }
     }
 }
@@ -115,6 +120,11 @@ fn decide(scene: &Scene, effect: Effect) -> (bool, String) {
             }
         }
         Effect::DiffuseReflection | Effect::SpecularReflection | Effect::Refraction => by_kind(scene, effect),
+        Effect::Textures if scene.materials.needs().textures => {
+            let names = scene.materials.textures.names().iter().map(String::as_str);
+            (true, list(&names.collect::<Vec<_>>()))
+        }
+        Effect::Textures => (false, "no material of a shape has a texture".to_owned()),
     }
 }
 

@@ -9,6 +9,7 @@ use crate::geometry::{Geometry, Instance, InstanceShape, NOT_EMITTING};
 use crate::light::{Emitter, EmitterShape, LightTable};
 use crate::material::MaterialTable;
 use std::f32::consts::PI;
+use std::sync::Arc;
 
 /// A scene as rendering sees it: tables only, never written to.
 #[derive(Clone, Debug)]
@@ -119,6 +120,9 @@ impl Tables {
             }
         }
         let mut materials = MaterialTable::default();
+        for (name, texture) in &flattened.textures {
+            materials.textures.push(name.clone(), Arc::clone(texture));
+        }
         let numbers = flattened
             .materials
             .iter()

@@ -6,10 +6,13 @@ use super::error::{SceneError, SceneWarning};
 use super::mesh::Mesh;
 use super::read::SceneSource;
 use super::shapes::{cuboid, obj, quad, sphere};
+use super::textures;
 use super::transform::compose;
 use super::validate::validate;
 use crate::color::Rgb;
+use crate::texture::Texture;
 use glam::Vec3;
+use std::sync::Arc;
 
 /// The most triangles and spheres of a scene.
 pub const MAX_PRIMITIVES: u64 = 1 << 31;
@@ -22,6 +25,8 @@ pub struct Flattened {
     /// Name and description of every material: those of the scene file in the order of their names, then those that
     /// meshes bring along, in the order of their first use, named `file:material`.
     pub materials: Vec<(String, MaterialDescription)>,
+    /// Name and texture of every texture, in the order of their names.
+    pub textures: Vec<(String, Arc<Texture>)>,
     /// What renders, but probably not as meant.
     pub warnings: Vec<SceneWarning>,
 }
@@ -110,6 +115,11 @@ impl Emission {
 pub fn flatten(source: &SceneSource) -> Result<Flattened, SceneError> {
     let mut warnings = validate(source)?;
     let scene = &source.description;
+    let mut textures = Vec::with_capacity(scene.textures.len());
+    for (name, texture) in &scene.textures {
+        let at = At::root(source).key("textures").key(name);
+        textures.push((name.clone(), Arc::new(textures::load(&at, texture)?)));
+    }
     let mut materials = Materials::new(scene);
     let shapes = At::root(source).key("shapes");
     let mut instances = Vec::with_capacity(scene.shapes.len());
@@ -134,6 +144,7 @@ pub fn flatten(source: &SceneSource) -> Result<Flattened, SceneError> {
     Ok(Flattened {
         instances,
         materials: materials.list,
+        textures,
         warnings,
     })
 }

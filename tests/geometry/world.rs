@@ -81,6 +81,7 @@ impl World {
         let flattened = Flattened {
             instances: self.instances,
             materials: DESCRIPTION.materials.clone().into_iter().collect(),
+            textures: Vec::new(),
             warnings: Vec::new(),
         };
         Scene::compile(&DESCRIPTION, &flattened, SceneOverrides::default()).expect("a box filter")

@@ -3,6 +3,7 @@
 
 mod material;
 mod shape;
+mod texture;
 mod view;
 
 pub(super) use shape::MAX_RADIANCE;
@@ -28,6 +29,12 @@ pub fn validate(source: &SceneSource) -> Result<Vec<SceneWarning>, SceneError> {
     }
     view::film(&root.key("film"), &scene.film)?;
     view::camera(&root.key("camera"), &scene.camera)?;
+    for (name, texture) in &scene.textures {
+        if name.is_empty() {
+            return Err(root.key("textures").name(name).error("a texture's name is empty", ""));
+        }
+        texture::check(&root.key("textures").key(name), texture)?;
+    }
     for (name, material) in &scene.materials {
         if name.is_empty() {
             return Err(root.key("materials").name(name).error("a material's name is empty", ""));
