@@ -36,20 +36,63 @@ pub struct TilePlace {
     pub seed: u64,
     /// Global number of the tile's first chain.
     pub first_chain: u32,
-    /// Chains in use; the last tile of a render may have fewer than its capacity.
+    /// Chains in use; the last tile of a render may have fewer than it has room for.
     pub chains: u32,
-    /// Chains that the tables have room for: the distance between a vertex and the next of the same chain.
+    /// Subpaths that the tables have room for, one or two a chain: the distance between a vertex and the next of the same
+    /// subpath.
     pub capacity: u32,
+    /// The first subpath that starts at a light: that of chain c has number `lights_from` + c. Subpath c starts at the
+    /// camera, if `lights_from` is beyond it.
+    pub lights_from: u32,
+    /// The first depth whose vertices have primary coordinates: 0 where the numbers that start subpaths are among them.
+    pub first_coordinate: u32,
     /// The step about to run, counted from 0 over the whole render.
     pub step: u64,
 }
 
 impl TilePlace {
-    /// Number of the vertex at `depth` of chain `chain` in a vertex table.
+    /// Number of the vertex at `depth` of subpath `path` in a vertex table.
     #[inline]
     #[must_use]
-    pub const fn vertex(&self, chain: usize, depth: u32) -> usize {
-        depth as usize * self.capacity as usize + chain
+    pub const fn vertex(&self, path: usize, depth: u32) -> usize {
+        depth as usize * self.capacity as usize + path
+    }
+
+    /// Number of the primary coordinates of the vertex at `depth` of subpath `path`.
+    #[inline]
+    #[must_use]
+    pub const fn coordinate(&self, path: usize, depth: u32) -> usize {
+        self.vertex(path, depth - self.first_coordinate)
+    }
+
+    /// Whether a subpath starts at a light.
+    #[inline]
+    #[must_use]
+    pub const fn starts_at_light(&self, path: usize) -> bool {
+        path >= self.lights_from as usize
+    }
+
+    /// The chain of a subpath.
+    #[inline]
+    #[must_use]
+    pub const fn chain(&self, path: usize) -> usize {
+        if self.starts_at_light(path) {
+            path - self.lights_from as usize
+        } else {
+            path
+        }
+    }
+
+    /// The depth under which draws for the vertex at `depth` of subpath `path` are keyed: the two subpaths of a chain share no
+    /// numbers.
+    #[inline]
+    #[must_use]
+    pub const fn stream_depth(&self, path: usize, depth: u32) -> u32 {
+        if self.starts_at_light(path) {
+            depth | LIGHT_SUBPATH
+        } else {
+            depth
+        }
     }
 
     /// The key of the chain's random streams, from the bits that its column keeps.
@@ -59,6 +102,9 @@ impl TilePlace {
         StreamKey::from_bits(bits, self.first_chain + chain as u32)
     }
 }
+
+/// Marks the depths of light subpaths in keys; no path is as long.
+const LIGHT_SUBPATH: u32 = 1 << 16;
 
 /// Lengths of the dense lists and queues.
 #[derive(Resource, Clone, Copy, Debug, Default)]
@@ -106,7 +152,7 @@ impl Depths {
         Self {
             held: bounds(|held, _| held),
             most: bounds(|_, most| most),
-            groups: plan.size / LANES as u32,
+            groups: plan.capacity() / LANES as u32,
             tables: Arc::clone(&tables),
         }
     }

@@ -1,55 +1,19 @@
-//! All emitters of a scene.
+//! All lights of a scene.
 
-use super::{sphere, triangle};
+use super::{EmissionDensities, Emitted, Emitter, Endpoint, LightSample};
 use crate::color::Rgb;
 use crate::geometry::{offset_distance, offset_origin};
+use crate::material::Frame;
 use crate::sampling::discrete::Discrete;
+use crate::sampling::warp;
 use glam::Vec3;
-use std::f64::consts::PI;
-
-/// A primitive that emits.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Emitter {
-    /// Its shape in world space.
-    pub shape: EmitterShape,
-    /// Emitted radiance, W sr⁻¹ m⁻² per channel.
-    pub radiance: Rgb,
-    /// Area in squared scene units.
-    pub area: f32,
-}
-
-/// The shape of an emitter, world space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum EmitterShape {
-    /// A triangle by its corners.
-    Triangle([Vec3; 3]),
-    /// A sphere.
-    Sphere {
-        /// Centre.
-        center: Vec3,
-        /// Radius.
-        radius: f32,
-    },
-}
-
-/// Light that may reach a reference point, before anything in between is looked at.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LightSample {
-    /// Unit direction from the reference point to the light.
-    pub direction: Vec3,
-    /// Where on the light, moved off its surface: the far end of the segment to trace.
-    pub target: Vec3,
-    /// Radiance towards the reference point, W sr⁻¹ m⁻².
-    pub radiance: Rgb,
-    /// Density of the direction per solid angle, the choice of the light included.
-    pub density: f32,
-}
+use std::f32::consts::PI;
 
 /// Emitters by number, and the distribution over them.
 #[derive(Clone, Debug, Default)]
 pub struct LightTable {
     emitters: Vec<Emitter>,
-    /// Unit geometric normals of triangles; spheres have one per point.
+    /// Unit geometric normals of triangles and disks; the others have one per point.
     normals: Vec<Vec3>,
     /// In proportion to power.
     choice: Discrete,
@@ -59,13 +23,8 @@ impl LightTable {
     /// A table of emitters, chosen in proportion to π · area · mean radiance.
     #[must_use]
     pub fn new(emitters: Vec<Emitter>) -> Self {
-        let power = |e: &Emitter| PI * f64::from(e.area) * f64::from(e.radiance.mean());
-        let choice = Discrete::new(emitters.iter().map(power));
-        let normal = |emitter: &Emitter| match emitter.shape {
-            EmitterShape::Triangle(corners) => triangle::normal(corners),
-            EmitterShape::Sphere { .. } => Vec3::ZERO,
-        };
-        let normals = emitters.iter().map(normal).collect();
+        let choice = Discrete::new(emitters.iter().map(Emitter::power));
+        let normals = emitters.iter().map(Emitter::flat_normal).collect();
         Self {
             emitters,
             normals,
@@ -94,6 +53,25 @@ impl LightTable {
             .fold(0.0, f32::max)
     }
 
+    /// What kind of vertex a path has on the light.
+    #[inline]
+    #[must_use]
+    pub fn endpoint(&self, _light: u32) -> Endpoint {
+        Endpoint::Surface
+    }
+
+    /// Whether no path meets the light by chance: a point, or a single direction.
+    #[inline]
+    #[must_use]
+    pub fn is_delta(&self, _light: u32) -> bool {
+        false
+    }
+
+    /// The lights that rays meet which leave the scene. They overlap: each has a radiance in every direction.
+    pub fn infinite(&self) -> impl Iterator<Item = u32> {
+        std::iter::empty()
+    }
+
     /// Chooses a light with `choice` and a point on it with `u`, as seen from `from`. `None` if no light reaches
     /// `from` from there: its back, its edge, or the reference point inside it.
     #[inline]
@@ -101,10 +79,7 @@ impl LightTable {
     pub fn sample(&self, from: Vec3, choice: f64, u: [f32; 2]) -> Option<LightSample> {
         let number = self.choice.sample(choice)?;
         let emitter = &self.emitters[number];
-        let point = match emitter.shape {
-            EmitterShape::Triangle(corners) => triangle::sample(corners, self.normals[number], emitter.area, from, u)?,
-            EmitterShape::Sphere { center, radius } => sphere::sample(center, radius, from, u)?,
-        };
+        let point = emitter.sample(self.normals[number], from, u)?;
         let density = self.choice.probability(number) * point.density;
         // The product of two tiny numbers can vanish; what was drawn must be divisible by its density.
         if density == 0.0 {
@@ -118,25 +93,25 @@ impl LightTable {
             target: offset_origin(point.position, point.normal, offset, point.normal),
             radiance: emitter.radiance,
             density,
+            light: number as u32,
+            position: point.position,
+            normal: point.normal,
+            discrete: false,
         })
     }
 
     /// The density, per solid angle at `from`, with which [`sample`](Self::sample) finds the point `position` with the
-    /// unit geometric normal `normal` on emitter `light`.
+    /// unit geometric normal `normal` on emitter `light`. For a light at infinity `position` does not matter, and `normal`
+    /// is the direction in which the light travels. Zero for discrete lights.
     #[inline]
     #[must_use]
     pub fn density(&self, light: u32, from: Vec3, position: Vec3, normal: Vec3) -> f32 {
         let number = light as usize;
-        let emitter = &self.emitters[number];
-        let density = match emitter.shape {
-            EmitterShape::Triangle(_) => triangle::density(emitter.area, from, position, normal),
-            EmitterShape::Sphere { center, radius } => sphere::density(center, radius, from),
-        };
-        self.choice.probability(number) * density
+        self.choice.probability(number) * self.emitters[number].density(from, position, normal)
     }
 
     /// Radiance that emitter `light` sends from a point with geometric normal `normal` along the unit direction
-    /// `towards`.
+    /// `towards`. For a light at infinity both are the direction in which the light travels.
     #[inline]
     #[must_use]
     pub fn radiance(&self, light: u32, normal: Vec3, towards: Vec3) -> Rgb {
@@ -144,6 +119,49 @@ impl LightTable {
             self.emitters[light as usize].radiance
         } else {
             Rgb::BLACK
+        }
+    }
+
+    /// Chooses a light with `choice`, where on it with `point`, and a direction with `direction`, and sends light into the
+    /// scene. `None` where nothing leaves that way.
+    #[inline]
+    #[must_use]
+    pub fn emit(&self, choice: f64, point: [f32; 2], direction: [f32; 2]) -> Option<Emitted> {
+        let number = self.choice.sample(choice)?;
+        let emitter = &self.emitters[number];
+        let (position, normal) = emitter.point(self.normals[number], point);
+        let local = warp::cosine_hemisphere(direction);
+        let direction = Frame::new(normal).to_world(local).normalize();
+        let light = number as u32;
+        let densities = self.emission_densities(light, position, normal, direction);
+        // The cosine over its density is π.
+        let ratio = emitter.radiance * (PI / densities.position);
+        if !densities.are_usable() || !ratio.is_finite() {
+            return None;
+        }
+        let offset = offset_distance(position, normal, emitter.area.sqrt());
+        Some(Emitted {
+            light,
+            endpoint: Endpoint::Surface,
+            origin: offset_origin(position, normal, offset, direction),
+            position,
+            normal,
+            direction,
+            ratio,
+            densities,
+        })
+    }
+
+    /// The densities with which [`emit`](Self::emit) draws light that leaves `position` with the unit geometric normal
+    /// `normal` on light `light` along the unit direction `towards`. For a light at infinity `position` does not matter;
+    /// for discrete lights the densities are those of the place or direction where the light is.
+    #[inline]
+    #[must_use]
+    pub fn emission_densities(&self, light: u32, _position: Vec3, normal: Vec3, towards: Vec3) -> EmissionDensities {
+        let number = light as usize;
+        EmissionDensities {
+            position: self.choice.probability(number) / self.emitters[number].area,
+            direction: warp::cosine_hemisphere_density(normal.dot(towards)),
         }
     }
 }

@@ -40,6 +40,25 @@ pub trait PathDraws {
 #[derive(Clone, Copy, Debug)]
 pub struct KeyedDraws(pub StreamKey);
 
+impl KeyedDraws {
+    /// For starting a path at a light: a light and a point on it, and a direction.
+    #[inline]
+    #[must_use]
+    pub fn emission(self) -> (LightDraw, [f32; 2]) {
+        let mut stream = self.0.stream(Purpose::EMISSION, 0);
+        let choice = stream.next_f64();
+        let point = stream.next_pair();
+        (LightDraw { choice, point }, stream.next_pair())
+    }
+
+    /// For choosing the pixel that light from the vertex at `depth` of a light path counts for.
+    #[inline]
+    #[must_use]
+    pub fn splat(self, depth: u32) -> f32 {
+        self.0.stream(Purpose::SPLAT, depth).next_f32()
+    }
+}
+
 impl PathDraws for KeyedDraws {
     #[inline]
     fn lens(&mut self) -> [f32; 2] {
@@ -258,6 +277,13 @@ impl VertexCoordinates {
     #[must_use]
     pub fn lobe_draw(self) -> f32 {
         to_f32(self.lobe)
+    }
+
+    /// The number that chooses a pixel, for vertices of light paths, which are not connected to lights.
+    #[inline]
+    #[must_use]
+    pub fn splat_draw(self) -> f32 {
+        to_f32(self.light[0])
     }
 
     /// The number that plays roulette.

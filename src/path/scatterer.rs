@@ -90,7 +90,9 @@ impl Scatterer {
         if scattering.value.is_black() {
             return None;
         }
-        let weight = mis::power_heuristic(light.density, scattering.density);
+        // What scattering never meets is found here alone.
+        let rival = if light.discrete { 0.0 } else { scattering.density };
+        let weight = mis::power_heuristic(light.density, rival);
         Some(Connection {
             value: scattering.value * light.radiance * (weight / light.density),
             origin: offset_origin(self.position, self.normal, self.offset, light.direction),

@@ -25,7 +25,7 @@ pub use support::{Region, Support};
 pub use system::{InPlan, Phases, Place, Stage, SystemPlan, SystemSpec, TraceStep, Traces};
 pub use table::{ColumnPlan, Extent, TableId, TablePlan};
 pub use technique::{Technique, UnknownTechnique};
-pub use tile::TilePlan;
+pub use tile::{Subpaths, TilePlan};
 
 use crate::film::{Film, GroupFilm};
 use crate::scene::Scene;

@@ -29,6 +29,7 @@ impl Purpose {
     pub const PERTURB: Self = Self(6);
     /// Choice of the seeds among the samples of a group's bootstrap.
     pub const RESAMPLE: Self = Self(7);
+
     /// Choice of a lobe at the vertex of the given depth.
     pub const LOBE: Self = Self(8);
     /// Where on the lens a path starts.

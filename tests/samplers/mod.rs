@@ -5,6 +5,7 @@
 mod cameras;
 mod diffuse;
 mod discrete;
+mod emission;
 mod emitters;
 mod light_choice;
 mod lights;
