@@ -4,12 +4,13 @@ use super::at::At;
 use super::description::TextureDescription;
 use super::error::SceneError;
 use super::read::read_bounded;
+use crate::color::Rgb;
 use crate::texture::{Bitmap, Checkerboard, Texture, decode};
 
 /// The largest picture file, in bytes.
 const MAX_PICTURE_BYTES: u64 = 2 << 30;
 
-/// The texture at `at`. It is a share of light: no texel may be above one.
+/// The texture at `at`. It is a share of light: every texel is from 0 to 1.
 pub(super) fn load(at: &At, description: &TextureDescription) -> Result<Texture, SceneError> {
     match description {
         TextureDescription::Checkerboard { even, odd, scale } => {
@@ -28,13 +29,14 @@ pub(super) fn load(at: &At, description: &TextureDescription) -> Result<Texture,
             let bytes = read_bounded(&path, MAX_PICTURE_BYTES)
                 .map_err(|problem| at.error(format!("cannot read the picture {}: {problem}", path.display()), ""))?;
             let picture = decode(&bytes, *encoding).map_err(|problem| at.error(format!("{shown}: {problem}"), ""))?;
-            if let Some(texel) = picture.above(1.0) {
+            let outside = |color: Rgb| color.min_channel() < 0.0 || color.max_channel() > 1.0;
+            if let Some(texel) = picture.find(outside) {
                 let [r, g, b] = texel.color.to_array();
-                let (x, y) = (texel.x, texel.y);
                 let message = format!(
-                    "{shown}: as a reflectance no texel may be above 1, and texel ({x}, {y}) from the top left is ({r}, {g}, {b})"
+                    "{shown}: a reflectance is from 0 to 1, and texel ({}, {}) from the top left is ({r}, {g}, {b})",
+                    texel.x, texel.y
                 );
-                let help = "more light would leave than arrives; scale the picture down";
+                let help = "a share of the light that arrives; scale the picture down";
                 return Err(at.error(message, help));
             }
             Ok(Texture::Bitmap(Bitmap::new(picture, *filter, *wrap, *scale)))

@@ -2,7 +2,7 @@
 
 use crate::color::Rgb;
 
-/// Linear colours, row-major, top left first. None is negative, infinite, or not a number.
+/// Linear colours, row-major, top left first. All are finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     width: usize,
@@ -43,15 +43,13 @@ impl Picture {
     /// The picture of `width` x `height` linear colours.
     ///
     /// # Errors
-    /// A picture without texels, a list of another length, or the first texel that is negative, infinite or not a number;
-    /// in words.
+    /// A picture without texels, a list of another length, or the first texel that is infinite or not a number; in words.
     pub fn linear(width: usize, height: usize, rgb: Vec<Rgb>) -> Result<Self, String> {
         check_count(width, height, rgb.len())?;
-        let bad = |color: &Rgb| !color.is_finite() || color.min_channel() < 0.0;
-        if let Some(at) = rgb.iter().position(bad) {
+        if let Some(at) = rgb.iter().position(|color| !color.is_finite()) {
             let [r, g, b] = rgb[at].to_array();
             return Err(format!(
-                "texel ({}, {}) from the top left is ({r}, {g}, {b}): expected finite numbers that are not negative",
+                "texel ({}, {}) from the top left is ({r}, {g}, {b}): expected finite numbers",
                 at % width,
                 at / width
             ));
@@ -86,17 +84,20 @@ impl Picture {
         }
     }
 
-    /// The first texel whose largest channel is above `limit`.
+    /// The first texel that `wanted` says yes to.
     #[must_use]
-    pub fn above(&self, limit: f32) -> Option<Texel> {
-        let brighter = |index: &usize| self.at(index % self.width, index / self.width).max_channel() > limit;
-        let index = (0..self.width * self.height).find(brighter)?;
-        let (x, y) = (index % self.width, index / self.width);
-        Some(Texel {
-            x,
-            y,
-            color: self.at(x, y),
-        })
+    pub fn find(&self, wanted: impl Fn(Rgb) -> bool) -> Option<Texel> {
+        let texel = |index: usize| {
+            let (x, y) = (index % self.width, index / self.width);
+            Texel {
+                x,
+                y,
+                color: self.at(x, y),
+            }
+        };
+        (0..self.width * self.height)
+            .map(texel)
+            .find(|texel| wanted(texel.color))
     }
 
     /// Memory of the texels, in bytes.
@@ -122,7 +123,7 @@ mod tests {
 
     #[test]
     fn texels_that_are_no_colours_are_refused_with_their_place() {
-        for bad in [f32::NAN, f32::INFINITY, -0.1] {
+        for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
             let mut rgb = vec![Rgb::ONE; 6];
             rgb[5].g = bad;
             let error = Picture::linear(3, 2, rgb).expect_err("no colour");
@@ -133,13 +134,13 @@ mod tests {
     }
 
     #[test]
-    fn the_first_texel_above_a_limit_is_named() {
+    fn the_first_texel_of_a_kind_is_named() {
         let mut rgb = vec![Rgb::splat(0.5); 6];
         rgb[4] = Rgb::new(0.0, 0.0, 1.5);
         let picture = Picture::linear(3, 2, rgb).expect("colours");
-        let found = picture.above(1.0).expect("one texel");
+        let found = picture.find(|color| color.b > 1.0).expect("one texel");
         assert_eq!((found.x, found.y, found.color.b), (1, 1, 1.5));
-        assert_eq!(picture.above(1.5), None);
+        assert_eq!(picture.find(|color| color.b > 1.5), None);
         assert_eq!(picture.bytes(), 72);
     }
 }
