@@ -22,11 +22,13 @@ pub enum Effect {
     SpecularReflection,
     /// Interfaces that reflect and refract.
     Refraction,
+    /// Colours that vary over a surface.
+    Textures,
 }
 
 impl Effect {
     /// Every effect.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Emission,
         Self::DirectLight,
         Self::Environment,
@@ -35,6 +37,7 @@ impl Effect {
         Self::CoatedReflection,
         Self::SpecularReflection,
         Self::Refraction,
+        Self::Textures,
     ];
 
     /// The effect that materials of a model bring.
@@ -59,6 +62,7 @@ impl Effect {
             Self::CoatedReflection => "a shape has a plastic material",
             Self::Refraction => "a shape has a dielectric material",
             Self::Emission | Self::DirectLight | Self::Environment => "light arrives",
+            Self::Textures => "some material has a texture",
         }
     }
 
@@ -74,6 +78,7 @@ impl Effect {
             Self::CoatedReflection => "coated reflection",
             Self::SpecularReflection => "specular reflection",
             Self::Refraction => "refraction",
+            Self::Textures => "textures",
         }
     }
 }
@@ -136,6 +141,11 @@ fn decide(scene: &Scene, effect: Effect) -> (bool, String) {
         | Effect::SpecularReflection
         | Effect::Refraction => by_kind(scene, effect),
         Effect::Environment => environment(scene),
+        Effect::Textures if scene.materials.needs().textures => {
+            let names = scene.materials.textures.names().iter().map(String::as_str);
+            (true, list(&names.collect::<Vec<_>>()))
+        }
+        Effect::Textures => (false, "no material of a shape has a texture".to_owned()),
     }
 }
 

@@ -4,6 +4,7 @@
 mod light;
 mod material;
 mod shape;
+mod texture;
 mod view;
 
 pub(super) use shape::MAX_RADIANCE;
@@ -29,9 +30,15 @@ pub fn validate(source: &SceneSource) -> Result<Vec<SceneWarning>, SceneError> {
     }
     view::film(&root.key("film"), &scene.film)?;
     view::camera(&root.key("camera"), &scene.camera)?;
+    for (name, texture) in &scene.textures {
+        if name.is_empty() {
+            return Err(root.key("textures").name(name).error("a texture's name is empty", ""));
+        }
+        texture::check(&root.key("textures").key(name), texture)?;
+    }
     let known = material::Known {
         materials: &scene.materials,
-        textures: Vec::new(),
+        textures: scene.textures.keys().map(String::as_str).collect(),
     };
     for (name, material) in &scene.materials {
         if name.is_empty() {
