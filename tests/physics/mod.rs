@@ -9,3 +9,4 @@ mod energy;
 mod fresnel;
 mod furnace;
 mod furnace_smooth;
+mod rough;

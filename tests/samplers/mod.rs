@@ -9,6 +9,8 @@ mod light_choice;
 mod lights;
 mod primary;
 mod resampling;
+mod rough;
+mod rough_lobes;
 mod smooth;
 mod stream_lags;
 mod streams;
