@@ -9,4 +9,5 @@ mod energy;
 mod fresnel;
 mod furnace;
 mod furnace_smooth;
+mod other_renderer;
 mod rough;

@@ -143,33 +143,11 @@ fn values_are_reciprocal_and_importance_is_radiance_turned_around() {
     assert!(compared.0 > 700_000, "{}", compared.0);
 }
 
-/// The mean ratio, split into reflection and transmission, over draws that fill the cube evenly (Roberts 2018: multiples of
-/// powers of the root g of g⁴ = g + 1), denser towards the ends of the numbers that choose directions, where lobes have tails.
-fn albedo(model: &impl Model, wi: Vec3, transport: Transport) -> [Rgb; 2] {
-    const DRAWS: u32 = 1 << 17;
-    const G: f64 = 1.220_744_084_605_759_5;
-    let mut sums = [[0.0_f64; 3]; 2];
-    for k in 0..DRAWS {
-        let number = |power: f64| ((f64::from(k) + 0.5) / power).fract();
-        let place = [number(G), number(G * G)];
-        let draw = ScatterDraw {
-            direction: place.map(|t| (t * t * (3.0 - 2.0 * t)) as f32),
-            lobe: number(G * G * G) as f32,
-        };
-        let weight: f64 = place.map(|t| 6.0 * t * (1.0 - t)).into_iter().product();
-        if let Some(sample) = model.sample(&PLAIN, wi, draw, transport) {
-            assert!(
-                sample.ratio.is_finite() && sample.density.is_finite(),
-                "{model:?} {wi} {draw:?}: {sample:?}"
-            );
-            let side = usize::from(sample.wo.z * wi.z < 0.0);
-            let ratio = sample.ratio.to_array();
-            (0..3).for_each(|c| sums[side][c] += weight * f64::from(ratio[c]));
-        }
-    }
-    sums.map(|sum| Rgb::from(sum.map(|s| (s / f64::from(DRAWS)) as f32)))
-}
-
+/// The draw that chooses what is chosen last.
+const LAST: ScatterDraw = ScatterDraw {
+    direction: [1.0 - 0.5 * f32::EPSILON, 0.0],
+    lobe: 0.0,
+};
 /// What [`albedo`] may be off by.
 const SLACK: f32 = 1e-4;
 const SWEEP: [f32; 9] = [1.0, 0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, LEAST_ROUGHNESS];
@@ -190,7 +168,7 @@ fn rough_surfaces_make_no_light_and_lose_little_when_smooth() {
                     "{distribution:?} {alpha} {cosine}: {metal} {glass}"
                 );
                 assert!(
-                    metal > 0.3 && glass > 0.6,
+                    metal > 0.3 && glass > 0.3,
                     "{distribution:?} {alpha} {cosine}: {metal} {glass}"
                 );
                 losses.push(format!("{:.4}/{:.4}", 1.0 - metal, 1.0 - glass));
@@ -233,20 +211,16 @@ fn the_smoothest_rough_surfaces_agree_with_smooth_ones() {
                     apart = apart.max((a - b).map(f32::abs).max_channel());
                 }
             };
-            compare(
-                albedo(&rough, wi, Transport::Radiance),
-                albedo(&smooth, wi, Transport::Radiance),
-            );
+            let mirrored = smooth
+                .sample(&PLAIN, wi, LAST, Transport::Radiance)
+                .map(|sample| sample.ratio);
+            let mirrored = [mirrored.unwrap_or(Rgb::BLACK), Rgb::BLACK];
+            compare(albedo(&rough, wi, Transport::Radiance), mirrored);
             for transport in BOTH {
-                // The smooth one chooses by the first number of the direction: a grid of lobes is not what it needs.
-                let fresnel = fresnel::dielectric(wi.z.abs(), if wi.z > 0.0 { 1.5 } else { 1.0 / 1.5 });
-                let last = ScatterDraw {
-                    direction: [1.0 - 0.5 * f32::EPSILON, 0.0],
-                    lobe: 0.0,
-                };
-                let passed = smooth_glass
-                    .sample(&PLAIN, wi, last, transport)
-                    .filter(|sample| sample.wo.z * wi.z < 0.0);
+                let index = if wi.z > 0.0 { 1.5 } else { 1.0 / 1.5 };
+                let fresnel = fresnel::dielectric(wi.z.abs(), index);
+                let passed = smooth_glass.sample(&PLAIN, wi, LAST, transport);
+                let passed = passed.filter(|sample| sample.wo.z * wi.z < 0.0);
                 let passed = passed.map_or(Rgb::BLACK, |sample| sample.ratio * sample.density);
                 compare(
                     albedo(&rough_glass, wi, transport),

@@ -22,6 +22,7 @@ use std::f64::consts::PI;
 
 /// How the slopes of microfacets are distributed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename = "distribution")]
 pub enum Distribution {
     /// Trowbridge and Reitz (1975), also known as GGX (Walter et al. 2007): long tails, as real surfaces have them.
     #[default]
