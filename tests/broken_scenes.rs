@@ -220,6 +220,9 @@ fn mistakes_of_the_camera_the_film_and_the_settings() {
     insta::assert_snapshot!(report);
 }
 
+/// What the cases of materials put others in place of.
+const GOLD: &str = "Conductor(eta: (0.14, 0.38, 1.44), k: (3.98, 2.39, 1.6))";
+
 #[test]
 fn mistakes_of_lenses_and_parallel_cameras() {
     let pinhole = "Perspective(origin: (278, 273, -800), target: (278, 273, 0), fov: 39.3, fov_axis: Horizontal)";
@@ -287,6 +290,104 @@ fn mistakes_of_materials() {
         ),
         ("a negative index", "eta: (0.14", "eta: (-0.14"),
         ("an index of zero", "interior_ior: 1.5", "interior_ior: 0"),
+        ("an unknown metal", GOLD, "Conductor(metal: \"Gold\")"),
+        ("a metal misspelt", GOLD, "Conductor(metal: \"Aut\")"),
+        (
+            "a metal by name and in numbers",
+            "eta: (0.14",
+            "metal: \"Au\", eta: (0.14",
+        ),
+        (
+            "a metal by name and with a k",
+            GOLD,
+            "Conductor(metal: \"Au\", k: (1, 1, 1))",
+        ),
+        ("neither metal nor index", GOLD, "Conductor()"),
+        ("an index without absorption", GOLD, "Conductor(eta: (1, 1, 1))"),
+        (
+            "absorption without an index",
+            GOLD,
+            "RoughConductor(k: (1, 1, 1), alpha: 0.1)",
+        ),
+        ("no roughness", GOLD, "RoughConductor(metal: \"Au\")"),
+        (
+            "two kinds of roughness",
+            GOLD,
+            "RoughConductor(metal: \"Au\", alpha: 0.1, alpha_v: 0.2)",
+        ),
+        (
+            "roughness in one direction",
+            GOLD,
+            "RoughConductor(metal: \"Au\", alpha_u: 0.1)",
+        ),
+        (
+            "roughness in the other",
+            "Dielectric(interior_ior: 1.5)",
+            "RoughDielectric(interior_ior: 1.5, alpha_v: 0.1)",
+        ),
+        (
+            "a roughness below zero",
+            GOLD,
+            "RoughConductor(metal: \"Au\", alpha: -0.1)",
+        ),
+        (
+            "a roughness of zero",
+            "Dielectric(interior_ior: 1.5)",
+            "RoughDielectric(interior_ior: 1.5, alpha: 0)",
+        ),
+        (
+            "a roughness above one",
+            GOLD,
+            "RoughConductor(metal: \"Au\", alpha_u: 0.1, alpha_v: 1.5)",
+        ),
+        (
+            "an unknown distribution",
+            GOLD,
+            "RoughConductor(metal: \"Au\", alpha: 0.1, distribution: Phong)",
+        ),
+        ("a coat too dense", GOLD, "Plastic(interior_ior: 11)"),
+        (
+            "a base that makes light",
+            GOLD,
+            "Plastic(diffuse_reflectance: (1, 1.1, 1))",
+        ),
+        (
+            "a texture that there is not",
+            "reflectance: (0.7, 0.7, 0.7)",
+            "reflectance: \"wood\"",
+        ),
+        (
+            "a number for a colour",
+            "reflectance: (0.7, 0.7, 0.7)",
+            "reflectance: 0.7",
+        ),
+        (
+            "two numbers for a colour",
+            "reflectance: (0.7, 0.7, 0.7)",
+            "reflectance: (0.7, 0.7)",
+        ),
+        (
+            "four numbers for a colour",
+            "reflectance: (0.7, 0.7, 0.7)",
+            "reflectance: (0.7, 0.7, 0.7, 1)",
+        ),
+        (
+            "a name for a channel",
+            "reflectance: (0.7, 0.7, 0.7)",
+            "reflectance: (0.7, \"wood\", 0.7)",
+        ),
+        (
+            "a sheet with an unknown side",
+            GOLD,
+            "TwoSided(front: \"white\", back: \"whit\")",
+        ),
+        ("a sheet of sheets", GOLD, "TwoSided(front: \"gold\", back: \"white\")"),
+        (
+            "a sheet with a clear side",
+            GOLD,
+            "TwoSided(front: \"white\", back: \"glass\")",
+        ),
+        ("a sheet with one side", GOLD, "TwoSided(front: \"white\")"),
         ("an empty name", "\"gold\"", "\"\""),
         ("an unused material", "material: \"gold\"", "material: \"white\""),
     ]);

@@ -11,3 +11,5 @@ mod fresnel;
 mod furnace;
 mod furnace_smooth;
 mod lights;
+mod other_renderer;
+mod rough;
