@@ -36,5 +36,12 @@ pub const BOX_EXIT_SLACK: f32 = 1.0 + 8.0 * F32_ROUNDING;
 /// `coincident_triangles_return_the_lowest_primitive`.
 pub const CULL_SLACK: f32 = 1.0 + 6.0 * F32_ROUNDING;
 
+/// The smallest roughness of microfacets; scenes that ask for less are refused and pointed at the smooth material. Directions
+/// are rounded to 2⁻²⁴: a lobe ten times narrower than this one would be narrower than what rounding does to a half vector
+/// of grazing directions, and values would be noise. Here rounding moves half vectors by a thousandth of the lobe, and albedos
+/// agree with the smooth material's to a few ten-thousandths. Guarded by
+/// `the_smoothest_rough_surfaces_agree_with_smooth_ones` and `rough_lobes_follow_their_densities`.
+pub const LEAST_ROUGHNESS: f32 = 1e-4;
+
 /// Half the distance from 1 to the next f32: the largest relative error of one rounding.
 const F32_ROUNDING: f32 = f32::EPSILON * 0.5;

@@ -5,6 +5,7 @@
 //! lexicographic minimum of (distance, instance, primitive), whatever order the tree is walked in. Intersections are
 //! computed in f64 from f32 vertices and origins: near hits are found at any scale, shared edges do not leak.
 
+mod bounding_sphere;
 mod cylinder;
 mod disk;
 mod leaf;
@@ -19,6 +20,7 @@ mod trace;
 mod tree;
 mod triangle;
 
+pub use bounding_sphere::BoundingSphere;
 pub use queue::{
     HitColumns, HitDistance, HitInstance, HitPrimitive, HitUv, NO_HIT, RayColumns, RayDirection, RayOrigin,
     SegmentColumns, SegmentTarget, SegmentTransmittance,

@@ -1,18 +1,49 @@
 //! Lights: what emits, how a light and a point on it are chosen, and with what density.
 //!
-//! One row per emitting primitive, chosen in proportion to its power. Emission is one-sided: on the side of the geometric
-//! normal, the same radiance in every direction (W sr⁻¹ m⁻²).
+//! One row per emitting primitive, then one per light that is no shape; all are chosen in proportion to their power.
+//! Emission of a primitive is one-sided: on the side of the geometric normal, the same radiance in every direction
+//! (W sr⁻¹ m⁻²). Each kind of light is a file, whose head is its manual:
+//!
+//! | kind | met by paths | vertex of a path on it |
+//! |---|---|---|
+//! | emitter: triangle, sphere, disk, cylinder | yes | a point of its surface |
+//! | [`Point`], [`Spot`] | no | the point |
+//! | [`Directional`] | no | the direction |
+//! | [`Constant`], [`Image`], [`Sun`], [`Sky`] | by rays that leave the scene; they add up | a direction |
+//!
+//! Light from infinity enters the scene through a disc as wide as the scene's bounding sphere: its direction is drawn
+//! first, then a point of the disc that faces it, outside the sphere.
 
+mod constant;
 mod cylinder;
+mod directional;
 mod disk;
 mod emitter;
+mod hosek_wilkie;
+mod image;
+mod infinite;
+mod kind;
+mod point;
 mod sample;
+mod sky;
 mod sphere;
+mod sphere_map;
+mod spot;
+mod sun;
 mod table;
 mod triangle;
 
+pub use constant::Constant;
+pub use directional::Directional;
 pub use emitter::{Emitter, EmitterShape};
+pub use hosek_wilkie::TURBIDITY;
+pub use image::{Image, ImageError};
+pub use kind::Light;
+pub use point::Point;
 pub use sample::{EmissionDensities, Emitted, Endpoint, LightSample};
+pub use sky::Sky;
+pub use spot::Spot;
+pub use sun::{SUN_RADIUS, Sun};
 pub use table::LightTable;
 
 use glam::Vec3;

@@ -10,8 +10,14 @@ pub enum Effect {
     Emission,
     /// Light connected to from a surface that scatters with a density.
     DirectLight,
+    /// Light from outside the scene that rays meet which leave it.
+    Environment,
     /// Scattering off matt surfaces.
     DiffuseReflection,
+    /// Blurred mirrors of metal.
+    GlossyReflection,
+    /// Scattering off matt surfaces under a clear coat, and mirroring in it.
+    CoatedReflection,
     /// Mirrors of metal.
     SpecularReflection,
     /// Interfaces that reflect and refract.
@@ -22,10 +28,13 @@ pub enum Effect {
 
 impl Effect {
     /// Every effect.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 9] = [
         Self::Emission,
         Self::DirectLight,
+        Self::Environment,
         Self::DiffuseReflection,
+        Self::GlossyReflection,
+        Self::CoatedReflection,
         Self::SpecularReflection,
         Self::Refraction,
         Self::Textures,
@@ -36,8 +45,10 @@ impl Effect {
     pub const fn of(kind: MaterialKind) -> Self {
         match kind {
             MaterialKind::Diffuse => Self::DiffuseReflection,
+            MaterialKind::RoughConductor => Self::GlossyReflection,
+            MaterialKind::Plastic => Self::CoatedReflection,
             MaterialKind::Conductor => Self::SpecularReflection,
-            MaterialKind::Dielectric => Self::Refraction,
+            MaterialKind::Dielectric | MaterialKind::RoughDielectric => Self::Refraction,
         }
     }
 
@@ -47,8 +58,10 @@ impl Effect {
         match self {
             Self::DiffuseReflection => "a shape has a diffuse material",
             Self::SpecularReflection => "a shape has a conductor material",
+            Self::GlossyReflection => "a shape has a rough conductor material",
+            Self::CoatedReflection => "a shape has a plastic material",
             Self::Refraction => "a shape has a dielectric material",
-            Self::Emission | Self::DirectLight => "light arrives",
+            Self::Emission | Self::DirectLight | Self::Environment => "light arrives",
             Self::Textures => "some material has a texture",
         }
     }
@@ -59,7 +72,10 @@ impl Effect {
         match self {
             Self::Emission => "emission",
             Self::DirectLight => "direct light",
+            Self::Environment => "environment",
             Self::DiffuseReflection => "diffuse reflection",
+            Self::GlossyReflection => "glossy reflection",
+            Self::CoatedReflection => "coated reflection",
             Self::SpecularReflection => "specular reflection",
             Self::Refraction => "refraction",
             Self::Textures => "textures",
@@ -100,7 +116,7 @@ fn decide(scene: &Scene, effect: Effect) -> (bool, String) {
             "nothing emits: the picture is black and no path is traced".to_owned(),
         );
     }
-    if effect != Effect::Emission && scene.max_depth < 2 {
+    if !matches!(effect, Effect::Emission | Effect::Environment) && scene.max_depth < 2 {
         return (
             false,
             "max_depth is 1: emitters seen directly, nothing scatters".to_owned(),
@@ -119,7 +135,12 @@ fn decide(scene: &Scene, effect: Effect) -> (bool, String) {
                 (true, format!("lights can be sampled from {}", list(&used)))
             }
         }
-        Effect::DiffuseReflection | Effect::SpecularReflection | Effect::Refraction => by_kind(scene, effect),
+        Effect::DiffuseReflection
+        | Effect::GlossyReflection
+        | Effect::CoatedReflection
+        | Effect::SpecularReflection
+        | Effect::Refraction => by_kind(scene, effect),
+        Effect::Environment => environment(scene),
         Effect::Textures if scene.materials.needs().textures => {
             let names = scene.materials.textures.names().iter().map(String::as_str);
             (true, list(&names.collect::<Vec<_>>()))
@@ -130,7 +151,27 @@ fn decide(scene: &Scene, effect: Effect) -> (bool, String) {
 
 fn emitters(scene: &Scene) -> String {
     let names: Vec<&str> = scene.light_names.iter().map(String::as_str).collect();
-    format!("{} emitting primitives: {}", scene.lights.len(), list(&names))
+    let (primitives, all) = (scene.lights.emitter_count(), scene.lights.len());
+    let what = match all - primitives {
+        0 => format!("{primitives} emitting primitives"),
+        others => format!("{primitives} emitting primitives and {others} lights that are no shapes"),
+    };
+    format!("{what}: {}", list(&names))
+}
+
+fn environment(scene: &Scene) -> (bool, String) {
+    let count = scene.lights.infinite().count();
+    if count == 0 {
+        (
+            false,
+            "nothing shines from outside the scene on rays that leave it".to_owned(),
+        )
+    } else {
+        (
+            true,
+            format!("rays that leave the scene meet {count} lights at infinity"),
+        )
+    }
 }
 
 /// Effects that materials of some models bring.

@@ -4,7 +4,7 @@ use super::flatten::{Emission, Flattened, Geometry as Shape};
 use super::{Mesh, SceneDescription};
 use crate::camera::Camera;
 use crate::film::{Filter, FilterError};
-use crate::geometry::{Geometry, Instance, InstanceShape, NOT_EMITTING};
+use crate::geometry::{BoundingSphere, Geometry, Instance, InstanceShape, NOT_EMITTING};
 use crate::light::{Emitter, EmitterShape, LightTable};
 use crate::material::MaterialTable;
 use glam::Mat3;
@@ -30,7 +30,7 @@ pub struct Scene {
     pub filter: Filter,
     /// The most edges of a path: 1 shows emitters seen directly, 2 adds direct light.
     pub max_depth: u32,
-    /// Names of the shapes that emit.
+    /// Names of the shapes that emit, then of the lights that are no shapes.
     pub light_names: Vec<String>,
     /// Names of all instances, by number.
     pub instance_names: Vec<String>,
@@ -68,18 +68,27 @@ impl Scene {
             .instances
             .iter()
             .filter(|instance| !instance.emission.is_none());
+        let sphere = bounding_sphere(&tables.geometry);
+        let others = flattened.lights.iter().map(|(_, light)| light);
+        let named = flattened.lights.iter().map(|(name, _)| name);
         Ok(Self {
             geometry: tables.geometry,
             materials: tables.materials,
-            lights: LightTable::new(tables.emitters),
+            lights: LightTable::with_lights(tables.emitters, others.cloned().collect(), sphere),
             camera: Camera::new(&description.camera, width, height),
             width,
             height,
             filter,
             max_depth: overrides.max_depth.unwrap_or(description.settings.max_depth),
-            light_names: lit.map(|instance| instance.name.clone()).collect(),
+            light_names: lit.map(|instance| &instance.name).chain(named).cloned().collect(),
             instance_names: flattened.instances.iter().map(|i| i.name.clone()).collect(),
         })
+    }
+
+    /// A sphere that no shape reaches out of.
+    #[must_use]
+    pub fn bounding_sphere(&self) -> BoundingSphere {
+        bounding_sphere(&self.geometry)
     }
 
     /// Number of pixels.
@@ -87,6 +96,13 @@ impl Scene {
     pub fn pixel_count(&self) -> u32 {
         self.width * self.height
     }
+}
+
+fn bounding_sphere(geometry: &Geometry) -> BoundingSphere {
+    let bounds = geometry.bounds();
+    bounds.map_or_else(BoundingSphere::default, |(least, most)| {
+        BoundingSphere::around(least, most)
+    })
 }
 
 /// Tables while they grow.
@@ -106,6 +122,10 @@ impl Tables {
                 used[material as usize] = true;
             }
         }
+        let named = |name: &str| {
+            let found = flattened.materials.iter().find(|(known, _)| known == name);
+            found.map(|(_, description)| description)
+        };
         let mut materials = MaterialTable::default();
         for (name, texture) in &flattened.textures {
             materials.textures.push(name.clone(), Arc::clone(texture));
@@ -114,7 +134,7 @@ impl Tables {
             .materials
             .iter()
             .zip(used)
-            .map(|((name, description), used)| used.then(|| materials.push(name.clone(), description)))
+            .map(|((name, description), used)| used.then(|| materials.push(name.clone(), description, named)))
             .collect();
         Self {
             geometry: Geometry::default(),

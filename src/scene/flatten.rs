@@ -3,6 +3,7 @@
 use super::at::At;
 use super::description::{MaterialDescription, SceneDescription, ShapeDescription, ShapeKind};
 use super::error::{SceneError, SceneWarning};
+use super::lights;
 use super::mesh::Mesh;
 use super::read::SceneSource;
 use super::shapes::height_field::{Ground, Heights};
@@ -12,6 +13,7 @@ use super::textures;
 use super::transform::compose;
 use super::validate::validate;
 use crate::color::Rgb;
+use crate::light::Light;
 use crate::texture::Texture;
 use glam::{Mat3, Vec3};
 use std::sync::Arc;
@@ -27,6 +29,8 @@ pub struct Flattened {
     /// Name and description of every material: those of the scene file in the order of their names, then those that
     /// meshes bring along, in the order of their first use, named `file:material`.
     pub materials: Vec<(String, MaterialDescription)>,
+    /// Name and kind of every light of the `lights` block, in its order; the names are `lights[2] (Sun)`.
+    pub lights: Vec<(String, Light)>,
     /// Name and texture of every texture, in the order of their names.
     pub textures: Vec<(String, Arc<Texture>)>,
     /// What renders, but probably not as meant.
@@ -184,13 +188,22 @@ pub fn flatten(source: &SceneSource) -> Result<Flattened, SceneError> {
         }
         instances.push(instance);
     }
-    if instances.iter().all(|instance| instance.emission.is_none()) {
+    let placed = scene.lights.iter().enumerate().map(|(index, light)| {
+        let at = At::root(source).key("lights").index(index);
+        Ok((
+            format!("lights[{index}] ({})", light.name()),
+            lights::place(&at, light)?,
+        ))
+    });
+    let lights = placed.collect::<Result<Vec<_>, SceneError>>()?;
+    if lights.is_empty() && instances.iter().all(|instance| instance.emission.is_none()) {
         let message = "nothing in this scene emits light: the picture will be black";
         warnings.push(shapes.warning(message, "give a shape an `emission: (1, 1, 1)`"));
     }
     Ok(Flattened {
         instances,
         materials: materials.list,
+        lights,
         textures,
         warnings,
     })

@@ -19,6 +19,10 @@
 //!         "gold": Conductor(eta: (0.14, 0.38, 1.44), k: (3.98, 2.39, 1.6)),
 //!         "glass": Dielectric(interior_ior: 1.5),
 //!     },
+//!     lights: [                                       // optional: lights that are no shapes
+//!         Sky(sun_direction: (1, 2, 1), turbidity: 3),
+//!         Sun(direction: (1, 2, 1), turbidity: 3),
+//!     ],
 //!     shapes: [
 //!         (name: "floor", shape: Quad(corner: (-1, 0, 1), edge_u: (2, 0, 0), edge_v: (0, 0, -2)), material: "white"),
 //!         (shape: Box(min: (0, 0, 0), max: (1, 1, 1)), material: "gold",
@@ -50,7 +54,8 @@
 //! | `film` | `width`, `height`, `filter` (`Box(radius: 0.5)`) | [`FilmDescription`] |
 //! | filters | `Box(radius 0.5)`, `Tent(radius 1)`, `Gaussian(radius 1.5, sigma 0.5)` | [`FilterDescription`] |
 //! | `textures` | `Checkerboard(even (0.4), odd (0.2), scale (1, 1))`, `Bitmap(file, encoding (Auto), filter (Bilinear), wrap (Repeat), scale (1, 1))`, by name | [`TextureDescription`] |
-//! | `materials` | `Diffuse`, `Conductor`, `Dielectric`, by name | [`MaterialDescription`] |
+//! | `materials` | `Diffuse`, `Conductor`, `RoughConductor`, `Dielectric`, `RoughDielectric`, `Plastic`, `TwoSided`, by name | [`MaterialDescription`] |
+//! | `lights` | a list of `Point`, `Spot`, `Directional`, `Environment`, `Sun`, `Sky` | [`LightDescription`] |
 //! | `shapes` | a list of `name` (none), `shape`, `material`, `emission` (none), `transform` (none) | [`ShapeDescription`] |
 //! | shapes | `Quad`, `Box`, `Sphere`, `Obj` | [`ShapeKind`] |
 //! | transforms | `Translate((x, y, z))`, `Scale((x, y, z))`, `Rotate(axis, degrees)`, `Matrix((row, row, row, row))` | [`TransformStep`] |
@@ -87,9 +92,11 @@ mod at;
 mod compile;
 mod complaint;
 pub mod description;
+mod environment_picture;
 pub mod error;
 pub mod flatten;
 mod lex;
+mod lights;
 mod locate;
 pub mod mesh;
 pub mod read;
@@ -103,9 +110,9 @@ pub mod validate;
 
 pub use compile::{Scene, SceneOverrides};
 pub use description::{
-    CameraDescription, FilmDescription, FilterDescription, FovAxis, MaterialDescription, SceneDescription,
-    SettingsDescription, ShapeDescription, ShapeKind, TextureDescription, TextureEncoding, TextureFilter, TextureWrap,
-    TransformStep,
+    CameraDescription, ColorDescription, FilmDescription, FilterDescription, FovAxis, LightDescription,
+    MaterialDescription, SceneDescription, SettingsDescription, ShapeDescription, ShapeKind, TextureDescription,
+    TextureEncoding, TextureFilter, TextureWrap, TransformStep,
 };
 pub use error::{SceneError, SceneWarning, nearest_name};
 pub use flatten::{Emission, Flattened, Geometry, Instance, flatten};

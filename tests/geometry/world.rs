@@ -113,6 +113,7 @@ impl World {
         let flattened = Flattened {
             instances: self.instances,
             materials: DESCRIPTION.materials.clone().into_iter().collect(),
+            lights: Vec::new(),
             textures: Vec::new(),
             warnings: Vec::new(),
         };

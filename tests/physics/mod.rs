@@ -6,6 +6,8 @@ mod camera;
 mod direct_light;
 mod enclosure;
 mod energy;
+mod environment;
 mod fresnel;
 mod furnace;
 mod furnace_smooth;
+mod lights;

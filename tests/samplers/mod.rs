@@ -5,11 +5,14 @@
 mod cameras;
 mod diffuse;
 mod discrete;
+mod discrete_lights;
 mod emission;
 mod emitters;
+mod infinite;
 mod light_choice;
 mod lights;
 mod primary;
+mod remote;
 mod resampling;
 mod smooth;
 mod stream_lags;

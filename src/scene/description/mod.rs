@@ -4,7 +4,9 @@
 //! values against their ranges, so that an error can point at the place in the file.
 
 mod camera;
+mod color;
 mod film;
+mod light;
 mod material;
 mod settings;
 mod shape;
@@ -12,7 +14,9 @@ mod texture;
 mod unique_map;
 
 pub use camera::{CameraDescription, FovAxis};
+pub use color::ColorDescription;
 pub use film::{FilmDescription, FilterDescription, MAX_FILM_PIXELS, MAX_FILM_SIDE};
+pub use light::LightDescription;
 pub use material::MaterialDescription;
 pub use settings::{DEFAULT_MAX_DEPTH, MAX_DEPTH_LIMIT, SettingsDescription};
 pub use shape::{ShapeDescription, ShapeKind, TransformStep};
@@ -43,6 +47,9 @@ pub struct SceneDescription {
     /// Materials by name. Default: none. Two of the same name are an error.
     #[serde(default, deserialize_with = "unique_map::materials")]
     pub materials: BTreeMap<String, MaterialDescription>,
+    /// Lights that are no shapes. Default: none.
+    #[serde(default)]
+    pub lights: Vec<LightDescription>,
     /// Shapes, in the order in which they become instances. Required.
     pub shapes: Vec<ShapeDescription>,
 }

@@ -1,6 +1,7 @@
 //! Holds the values of a scene against their ranges: every number finite, and nothing that a later stage would divide
 //! by can be zero. What depends on transforms and on mesh files is checked where they are applied and read.
 
+mod light;
 mod material;
 mod shape;
 mod texture;
@@ -9,7 +10,7 @@ mod view;
 pub(super) use shape::MAX_RADIANCE;
 
 use super::at::At;
-use super::description::{MAX_DEPTH_LIMIT, SceneDescription, ShapeKind};
+use super::description::{MAX_DEPTH_LIMIT, MaterialDescription, SceneDescription, ShapeKind};
 use super::error::{SceneError, SceneWarning};
 use super::read::SceneSource;
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,11 +36,18 @@ pub fn validate(source: &SceneSource) -> Result<Vec<SceneWarning>, SceneError> {
         }
         texture::check(&root.key("textures").key(name), texture)?;
     }
+    let known = material::Known {
+        materials: &scene.materials,
+        textures: scene.textures.keys().map(String::as_str).collect(),
+    };
     for (name, material) in &scene.materials {
         if name.is_empty() {
             return Err(root.key("materials").name(name).error("a material's name is empty", ""));
         }
-        material::check(&root.key("materials").key(name), material)?;
+        material::check(&root.key("materials").key(name), material, &known)?;
+    }
+    for (index, light) in scene.lights.iter().enumerate() {
+        light::check(&root.key("lights").index(index), light)?;
     }
     let shapes = root.key("shapes");
     if scene.shapes.is_empty() {
@@ -71,11 +79,12 @@ pub fn validate(source: &SceneSource) -> Result<Vec<SceneWarning>, SceneError> {
 
 /// One warning for all of them: each would walk the text again.
 fn unused_materials(root: &At, scene: &SceneDescription) -> Option<SceneWarning> {
-    let used: BTreeSet<&String> = scene
-        .shapes
-        .iter()
-        .filter_map(|shape| shape.material.as_ref())
-        .collect();
+    let named = scene.shapes.iter().filter_map(|shape| shape.material.as_ref());
+    let sides = scene.materials.values().flat_map(|material| match material {
+        MaterialDescription::TwoSided { front, back } => vec![front, back],
+        _ => Vec::new(),
+    });
+    let used: BTreeSet<&String> = named.chain(sides).collect();
     let unused: Vec<&String> = scene.materials.keys().filter(|name| !used.contains(name)).collect();
     let at = root.key("materials").name(unused.first()?);
     let mut names = unused
