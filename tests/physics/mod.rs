@@ -11,3 +11,4 @@ mod fresnel;
 mod furnace;
 mod furnace_smooth;
 mod lights;
+mod rough;
