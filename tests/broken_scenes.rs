@@ -457,15 +457,25 @@ fn mistakes_of_textures() {
             "a linear file that is said to be sRGB",
             "\"t\": Bitmap(file: \"bright.hdr\", encoding: Srgb)",
         ),
+        (
+            "a texture that nothing uses",
+            "\"t\": Checkerboard(), \"unused\": Bitmap(file: \"none.png\")",
+        ),
+        ("another name", "\"tt\": Checkerboard()"),
         ("a wrap misspelt", "\"t\": Bitmap(file: \"bright.hdr\", wrap: repeat)"),
     ];
     let mut report = String::new();
     let place = format!("{}/", folder.path().display());
     for (what, texture) in cases {
-        let text = RON.replace(
-            "    materials: {",
-            &format!("    textures: {{{texture}}},\n    materials: {{"),
-        );
+        let text = RON
+            .replace(
+                "    materials: {",
+                &format!("    textures: {{{texture}}},\n    materials: {{"),
+            )
+            .replace(
+                "\"white\": Diffuse(reflectance: (0.7, 0.7, 0.7))",
+                "\"white\": Diffuse(reflectance: \"t\")",
+            );
         let said = findings("scene.ron", &text, Format::Ron, folder.path()).replace(&place, "");
         report.push_str(&format!("{what}\n  {}\n", said.replace('\n', "\n  ")));
     }

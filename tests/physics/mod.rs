@@ -12,3 +12,4 @@ mod furnace;
 mod furnace_smooth;
 mod lights;
 mod rough;
+mod textures;
