@@ -13,3 +13,4 @@ mod furnace_smooth;
 mod lights;
 mod other_renderer;
 mod rough;
+mod textures;
