@@ -4,6 +4,7 @@
 
 mod camera;
 mod direct_light;
+mod discrete_light;
 mod enclosure;
 mod energy;
 mod environment;
