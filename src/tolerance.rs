@@ -20,6 +20,10 @@ pub const EDGE_INSET_UNITS: f32 = 8.0;
 /// proportion to: it bounds how far a point of a needle moves. Guarded by `points_hardly_move_when_kept_off_edges`.
 pub const LEAST_INSET_HEIGHT: f64 = 0.125;
 
+/// How far beyond its rim a disk or a tube is still met, relative to its radius: 2⁻²³. Normals in f32 turn a disk by up to
+/// √3 · 2⁻²⁵ against the tube that it closes, which would leave a gap. Guarded by `nothing_leaves_a_closed_can`.
+pub const RIM_SLACK: f64 = 1.0 / (1u64 << 23) as f64;
+
 /// A box is entered if the computed entry is below the computed exit times this, the bound of Ize (2013, "Robust BVH ray
 /// traversal") under which no hit box is missed: three roundings in the entry, three in the exit, and here one more for
 /// the product with this number, rounded up to a number that f32 has. Guarded by `the_tree_finds_what_a_scan_finds` and
@@ -31,6 +35,13 @@ pub const BOX_EXIT_SLACK: f32 = 1.0 + 8.0 * F32_ROUNDING;
 /// all seen and the least primitive wins whatever order the tree is walked in. Guarded by
 /// `coincident_triangles_return_the_lowest_primitive`.
 pub const CULL_SLACK: f32 = 1.0 + 6.0 * F32_ROUNDING;
+
+/// The smallest roughness of microfacets; scenes that ask for less are refused and pointed at the smooth material. Directions
+/// are rounded to 2⁻²⁴: a lobe ten times narrower than this one would be narrower than what rounding does to a half vector
+/// of grazing directions, and values would be noise. Here rounding moves half vectors by a thousandth of the lobe, and albedos
+/// agree with the smooth material's to a few ten-thousandths. Guarded by
+/// `the_smoothest_rough_surfaces_agree_with_smooth_ones` and `rough_lobes_follow_their_densities`.
+pub const LEAST_ROUGHNESS: f32 = 1e-4;
 
 /// Half the distance from 1 to the next f32: the largest relative error of one rounding.
 const F32_ROUNDING: f32 = f32::EPSILON * 0.5;

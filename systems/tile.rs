@@ -4,7 +4,8 @@
 
 use crate::film::{BlockGrid, Film, GroupFilm};
 use crate::material::KINDS;
-use crate::path::{VERTEX_DISCRETE, VERTEX_LENS};
+use crate::path::bidirectional::Strategies;
+use crate::path::{VERTEX_DISCRETE, VERTEX_INFINITE, VERTEX_LENS};
 use crate::plan::{Extent, TablePlan, TilePlan};
 use crate::sampling::StreamKey;
 use crate::scene::Scene;
@@ -25,9 +26,22 @@ pub struct FilmRef(pub Arc<Film>);
 #[derive(Resource, Clone)]
 pub struct GroupFilmRef(pub Arc<Mutex<GroupFilm>>);
 
+/// Films that steps take turns among, for independent samples that bring light to many pixels.
+#[derive(Resource, Clone)]
+pub struct SplatFilms {
+    /// The films: step s goes to number s modulo their number.
+    pub films: Arc<[Mutex<GroupFilm>]>,
+    /// What light is multiplied with on its way to them.
+    pub scale: f32,
+}
+
 /// The blocks of the film that states are classed by.
 #[derive(Resource, Clone)]
 pub struct FilmBlocks(pub Arc<BlockGrid>);
+
+/// The strategies by which subpaths are joined, for techniques with both ends.
+#[derive(Resource, Clone, Copy, Debug)]
+pub struct StrategiesRef(pub Strategies);
 
 /// Which chains and which step the tile is at.
 #[derive(Resource, Clone, Copy, Debug)]
@@ -257,7 +271,7 @@ fn earlier(a: Option<(u32, u64)>, b: Option<(u32, u64)>) -> Option<(u32, u64)> {
 #[inline]
 #[must_use]
 pub const fn connectable(kind: u32) -> bool {
-    kind != VERTEX_LENS && kind != VERTEX_DISCRETE
+    kind != VERTEX_LENS && kind != VERTEX_DISCRETE && kind != VERTEX_INFINITE
 }
 
 #[cfg(test)]

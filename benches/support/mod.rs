@@ -51,7 +51,7 @@ pub fn bumpy_room(triangles: usize, size: u32) -> Arc<Scene> {
 fn add_spheres(flattened: &mut Flattened, triangles: usize) {
     let grey = flattened.materials.len() as u32;
     let description = MaterialDescription::Diffuse {
-        reflectance: Rgb::splat(0.6),
+        reflectance: Rgb::splat(0.6).into(),
         two_sided: true,
     };
     flattened.materials.push(("bumps".into(), description));

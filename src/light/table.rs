@@ -99,6 +99,13 @@ impl LightTable {
         self.other(light).is_some_and(|light| light.infinite().is_none())
     }
 
+    /// Whether there are lights that rays meet which leave the scene.
+    #[inline]
+    #[must_use]
+    pub fn has_infinite(&self) -> bool {
+        self.infinite().next().is_some()
+    }
+
     /// The lights that rays meet which leave the scene. They overlap: each has a radiance and a density in every
     /// direction, and their light adds up.
     pub fn infinite(&self) -> impl Iterator<Item = u32> {

@@ -2,9 +2,10 @@
 //!
 //! | parameter | meaning | unit | default |
 //! |---|---|---|---|
-//! | `eta` | real part of the index of refraction | none, >= 0 per channel | required |
-//! | `k` | absorption coefficient | none, >= 0 per channel | required |
-//! | `reflectance` | scale of the reflection | none, [0, 1] per channel | 1 |
+//! | `metal` | a metal by its symbol, such as `"Au"` ([`METALS`](super::metals::METALS)) | | this, or both of the next |
+//! | `eta` | real part of the index of refraction | none, >= 0 per channel | |
+//! | `k` | absorption coefficient | none, >= 0 per channel | |
+//! | `reflectance` | scale of the reflection, a colour or a texture | none, [0, 1] per channel | 1 |
 //! | `two_sided` | whether the back reflects like the front | | true |
 //!
 //! Use it for polished metal and, with `eta` 0 and `k` 1, for an ideal mirror. It is discrete: light through it can only
@@ -38,12 +39,7 @@ impl Model for Conductor {
         if wi.z == 0.0 || (wi.z < 0.0 && !self.two_sided) {
             return None;
         }
-        let cosine = wi.z.abs();
-        let reflected = Rgb::new(
-            fresnel::conductor(cosine, self.eta.r, self.k.r),
-            fresnel::conductor(cosine, self.eta.g, self.k.g),
-            fresnel::conductor(cosine, self.eta.b, self.k.b),
-        );
+        let reflected = fresnel::conductor_rgb(wi.z.abs(), self.eta, self.k);
         Some(Scattered {
             wo: Vec3::new(-wi.x, -wi.y, wi.z),
             ratio: self.reflectance.at(at) * reflected,

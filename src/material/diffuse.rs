@@ -2,7 +2,7 @@
 //!
 //! | parameter | meaning | unit | default |
 //! |---|---|---|---|
-//! | `reflectance` | share of light that is reflected | none, [0, 1] per channel | required |
+//! | `reflectance` | share of light that is reflected, a colour or a texture | none, [0, 1] per channel | required |
 //! | `two_sided` | whether the back reflects like the front | | true |
 //!
 //! Use it for plaster, paper, unpolished stone. Do not use it for anything with a highlight, however faint, if that

@@ -9,6 +9,9 @@ macro_rules! for_each_material {
             Diffuse, diffuse, "diffuse", scatter_diffuse, discrete: false, lobes: false;
             Conductor, conductor, "conductor", scatter_conductor, discrete: true, lobes: false;
             Dielectric, dielectric, "dielectric", scatter_dielectric, discrete: true, lobes: false;
+            RoughConductor, rough_conductor, "rough conductor", scatter_rough_conductor, discrete: false, lobes: false;
+            RoughDielectric, rough_dielectric, "rough dielectric", scatter_rough_dielectric, discrete: false, lobes: true;
+            Plastic, plastic, "plastic", scatter_plastic, discrete: false, lobes: true;
         }
     };
 }

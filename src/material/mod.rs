@@ -14,7 +14,12 @@ pub mod diffuse;
 mod frame;
 pub mod fresnel;
 mod list;
+pub mod metals;
+pub mod microfacet;
 mod model;
+pub mod plastic;
+pub mod rough_conductor;
+pub mod rough_dielectric;
 mod table;
 
 pub use frame::Frame;

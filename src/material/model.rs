@@ -44,6 +44,14 @@ pub struct Scattered {
     pub relative_ior: f32,
 }
 
+impl Scattered {
+    /// Nothing where rounding to `f32` left a direction in the surface itself, or no density.
+    #[inline]
+    pub(super) fn if_representable(self) -> Option<Self> {
+        (self.wo.z != 0.0 && self.density > 0.0 && self.density.is_finite()).then_some(self)
+    }
+}
+
 /// A material's value for a pair of directions, with the densities of sampling it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluated {

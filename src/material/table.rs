@@ -1,11 +1,15 @@
 //! All materials of a scene: one table per model, and an index over them.
 
+mod build;
+
 use super::conductor::Conductor;
 use super::dielectric::Dielectric;
 use super::diffuse::Diffuse;
 use super::list::for_each_material;
+use super::plastic::Plastic;
+use super::rough_conductor::RoughConductor;
+use super::rough_dielectric::RoughDielectric;
 use super::{Evaluated, Model, ScatterDraw, Scattered, Transport};
-use crate::scene::MaterialDescription;
 use crate::texture::{Shading, TextureTable};
 use glam::{Vec2, Vec3};
 
@@ -103,7 +107,7 @@ pub struct Needs {
 pub struct MaterialTable {
     names: Vec<String>,
     index: Vec<(MaterialKind, u32)>,
-    /// Of materials that differ by side, the numbers of front and back; empty where none does.
+    /// The numbers of front and back of every material up to the last that differs by side.
     sides: Vec<[u32; 2]>,
     /// The models that some material has, in the order of [`MaterialKind::ALL`].
     kinds: Vec<MaterialKind>,
@@ -114,51 +118,6 @@ pub struct MaterialTable {
 }
 
 impl MaterialTable {
-    /// Appends a material and returns its number.
-    pub fn push(&mut self, name: String, description: &MaterialDescription) -> u32 {
-        let (kind, row) = match *description {
-            MaterialDescription::Diffuse { reflectance, two_sided } => {
-                let reflectance = reflectance.into();
-                self.rows.diffuse.push(Diffuse { reflectance, two_sided });
-                (MaterialKind::Diffuse, self.rows.diffuse.len() - 1)
-            }
-            MaterialDescription::Conductor {
-                eta,
-                k,
-                reflectance,
-                two_sided,
-            } => {
-                self.rows.conductor.push(Conductor {
-                    eta,
-                    k,
-                    reflectance: reflectance.into(),
-                    two_sided,
-                });
-                (MaterialKind::Conductor, self.rows.conductor.len() - 1)
-            }
-            MaterialDescription::Dielectric {
-                interior_ior,
-                exterior_ior,
-                reflectance,
-                transmittance,
-            } => {
-                let relative_ior = interior_ior / exterior_ior;
-                self.rows.dielectric.push(Dielectric {
-                    relative_ior,
-                    reflectance,
-                    transmittance,
-                });
-                (MaterialKind::Dielectric, self.rows.dielectric.len() - 1)
-            }
-        };
-        self.names.push(name);
-        self.index.push((kind, row as u32));
-        if let Err(place) = self.kinds.binary_search(&kind) {
-            self.kinds.insert(place, kind);
-        }
-        (self.index.len() - 1) as u32
-    }
-
     /// Number of materials.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -14,21 +14,30 @@ pub enum Effect {
     Environment,
     /// Scattering off matt surfaces.
     DiffuseReflection,
+    /// Blurred mirrors of metal.
+    GlossyReflection,
+    /// Scattering off matt surfaces under a clear coat, and mirroring in it.
+    CoatedReflection,
     /// Mirrors of metal.
     SpecularReflection,
     /// Interfaces that reflect and refract.
     Refraction,
+    /// Colours that vary over a surface.
+    Textures,
 }
 
 impl Effect {
     /// Every effect.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 9] = [
         Self::Emission,
         Self::DirectLight,
         Self::Environment,
         Self::DiffuseReflection,
+        Self::GlossyReflection,
+        Self::CoatedReflection,
         Self::SpecularReflection,
         Self::Refraction,
+        Self::Textures,
     ];
 
     /// The effect that materials of a model bring.
@@ -36,8 +45,10 @@ impl Effect {
     pub const fn of(kind: MaterialKind) -> Self {
         match kind {
             MaterialKind::Diffuse => Self::DiffuseReflection,
+            MaterialKind::RoughConductor => Self::GlossyReflection,
+            MaterialKind::Plastic => Self::CoatedReflection,
             MaterialKind::Conductor => Self::SpecularReflection,
-            MaterialKind::Dielectric => Self::Refraction,
+            MaterialKind::Dielectric | MaterialKind::RoughDielectric => Self::Refraction,
         }
     }
 
@@ -47,8 +58,11 @@ impl Effect {
         match self {
             Self::DiffuseReflection => "a shape has a diffuse material",
             Self::SpecularReflection => "a shape has a conductor material",
+            Self::GlossyReflection => "a shape has a rough conductor material",
+            Self::CoatedReflection => "a shape has a plastic material",
             Self::Refraction => "a shape has a dielectric material",
             Self::Emission | Self::DirectLight | Self::Environment => "light arrives",
+            Self::Textures => "some material has a texture",
         }
     }
 
@@ -60,8 +74,11 @@ impl Effect {
             Self::DirectLight => "direct light",
             Self::Environment => "environment",
             Self::DiffuseReflection => "diffuse reflection",
+            Self::GlossyReflection => "glossy reflection",
+            Self::CoatedReflection => "coated reflection",
             Self::SpecularReflection => "specular reflection",
             Self::Refraction => "refraction",
+            Self::Textures => "textures",
         }
     }
 }
@@ -118,8 +135,17 @@ fn decide(scene: &Scene, effect: Effect) -> (bool, String) {
                 (true, format!("lights can be sampled from {}", list(&used)))
             }
         }
+        Effect::DiffuseReflection
+        | Effect::GlossyReflection
+        | Effect::CoatedReflection
+        | Effect::SpecularReflection
+        | Effect::Refraction => by_kind(scene, effect),
         Effect::Environment => environment(scene),
-        Effect::DiffuseReflection | Effect::SpecularReflection | Effect::Refraction => by_kind(scene, effect),
+        Effect::Textures if scene.materials.needs().textures => {
+            let names = scene.materials.textures.names().iter().map(String::as_str);
+            (true, list(&names.collect::<Vec<_>>()))
+        }
+        Effect::Textures => (false, "no material of a shape has a texture".to_owned()),
     }
 }
 

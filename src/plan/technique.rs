@@ -11,6 +11,12 @@ pub enum Technique {
     Pt,
     /// The same estimator traced depth first, one path after another: the oracle of the staged one, and its baseline.
     PtReference,
+    /// Light tracing (Dutré, Lafortune and Willems 1993): paths from lights, seen by the lens at each of their vertices. It
+    /// does not see what the lens sees by way of mirrors or smooth glass alone.
+    Lt,
+    /// Bidirectional path tracing (Veach and Guibas 1994; Lafortune and Willems 1993): a subpath from the camera and one from
+    /// a light, joined in every way.
+    Bdpt,
     /// Primary-sample-space Metropolis light transport (Kelemen, Szirmay-Kalos, Antal and Csonka 2002) over path tracing.
     Pssmlt,
     /// The same chains run depth first, one after another: the oracle of the staged ones, and their baseline.
@@ -39,9 +45,16 @@ fn hint(nearest: &Option<&'static str>) -> String {
 
 impl Technique {
     /// Every technique.
-    pub const ALL: [Self; 4] = [Self::Pt, Self::PtReference, Self::Pssmlt, Self::PssmltReference];
+    pub const ALL: [Self; 6] = [
+        Self::Pt,
+        Self::PtReference,
+        Self::Lt,
+        Self::Bdpt,
+        Self::Pssmlt,
+        Self::PssmltReference,
+    ];
 
-    /// Those whose samples are independent.
+    /// Those whose samples are independent, and each of one pixel.
     pub const INDEPENDENT: [Self; 2] = [Self::Pt, Self::PtReference];
 
     /// The name on the command line and in files.
@@ -50,6 +63,8 @@ impl Technique {
         match self {
             Self::Pt => "pt",
             Self::PtReference => "pt-reference",
+            Self::Lt => "lt",
+            Self::Bdpt => "bdpt",
             Self::Pssmlt => "pssmlt",
             Self::PssmltReference => "pssmlt-reference",
         }

@@ -3,12 +3,13 @@
 use super::flatten::{Emission, Flattened, Geometry as Shape};
 use super::{Mesh, SceneDescription};
 use crate::camera::Camera;
-use crate::color::Rgb;
 use crate::film::{Filter, FilterError};
 use crate::geometry::{BoundingSphere, Geometry, Instance, InstanceShape, NOT_EMITTING};
 use crate::light::{Emitter, EmitterShape, LightTable};
 use crate::material::MaterialTable;
+use glam::Mat3;
 use std::f32::consts::PI;
+use std::sync::Arc;
 
 /// A scene as rendering sees it: tables only, never written to.
 #[derive(Clone, Debug)]
@@ -60,16 +61,7 @@ impl Scene {
         let filter = Filter::new(&description.film.filter)?;
         let mut tables = Tables::new(flattened);
         for instance in &flattened.instances {
-            match &instance.geometry {
-                Shape::Mesh(mesh) => tables.add_mesh(mesh, &instance.emission),
-                Shape::Sphere {
-                    center,
-                    radius,
-                    material,
-                } => {
-                    tables.add_sphere(*center, *radius, *material, instance.emission.of(0));
-                }
-            }
+            tables.add(&instance.geometry, &instance.emission);
         }
         tables.geometry.build_tree();
         let lit = flattened
@@ -126,20 +118,23 @@ impl Tables {
     fn new(flattened: &Flattened) -> Self {
         let mut used = vec![false; flattened.materials.len()];
         for instance in &flattened.instances {
-            match &instance.geometry {
-                Shape::Mesh(mesh) => mesh
-                    .materials
-                    .iter()
-                    .for_each(|&material| used[material as usize] = true),
-                Shape::Sphere { material, .. } => used[*material as usize] = true,
+            for &material in instance.geometry.materials() {
+                used[material as usize] = true;
             }
         }
+        let named = |name: &str| {
+            let found = flattened.materials.iter().find(|(known, _)| known == name);
+            found.map(|(_, description)| description)
+        };
         let mut materials = MaterialTable::default();
+        for (name, texture) in &flattened.textures {
+            materials.textures.push(name.clone(), Arc::clone(texture));
+        }
         let numbers = flattened
             .materials
             .iter()
             .zip(used)
-            .map(|((name, description), used)| used.then(|| materials.push(name.clone(), description)))
+            .map(|((name, description), used)| used.then(|| materials.push(name.clone(), description, named)))
             .collect();
         Self {
             geometry: Geometry::default(),
@@ -149,18 +144,76 @@ impl Tables {
         }
     }
 
+    fn add(&mut self, shape: &Shape, emission: &Emission) {
+        let radiance = emission.of(0);
+        match *shape {
+            Shape::Mesh(ref mesh) => self.add_mesh(mesh, emission),
+            Shape::Sphere {
+                center,
+                radius,
+                frame,
+                material,
+            } => {
+                let emitter = Emitter {
+                    shape: EmitterShape::Sphere { center, radius },
+                    radiance,
+                    area: 4.0 * PI * radius * radius,
+                };
+                self.add_round(InstanceShape::Sphere { center, radius }, frame, material, emitter);
+            }
+            Shape::Disk {
+                center,
+                radius,
+                frame,
+                material,
+            } => {
+                let normal = frame.z_axis;
+                let emitter = Emitter {
+                    shape: EmitterShape::Disk { center, normal, radius },
+                    radiance,
+                    area: PI * radius * radius,
+                };
+                self.add_round(InstanceShape::Disk { center, normal, radius }, frame, material, emitter);
+            }
+            Shape::Cylinder {
+                from,
+                to,
+                radius,
+                frame,
+                material,
+            } => {
+                let length = to.as_dvec3().distance(from.as_dvec3()) as f32;
+                let emitter = Emitter {
+                    shape: EmitterShape::Cylinder { from, to, radius },
+                    radiance,
+                    area: 2.0 * PI * radius * length,
+                };
+                self.add_round(InstanceShape::Cylinder { from, to, radius }, frame, material, emitter);
+            }
+        }
+    }
+
     fn add_mesh(&mut self, mesh: &Mesh, emission: &Emission) {
+        let textured = self.needs_frames();
         let geometry = &mut self.geometry;
         let first_primitive = geometry.materials.len() as u32;
+        let has_uvs = textured && !mesh.uvs.is_empty();
         geometry.instances.push(Instance {
             shape: InstanceShape::Mesh {
                 first_triangle: geometry.triangles.len() as u32,
                 triangle_count: mesh.triangles.len() as u32,
                 first_vertex: geometry.positions.len() as u32,
                 first_normal: (!mesh.normals.is_empty()).then_some(geometry.normals.len() as u32),
+                first_uv: has_uvs.then_some(geometry.uvs.len() as u32),
             },
             first_primitive,
         });
+        if textured {
+            geometry.frames.push(Mat3::IDENTITY);
+        }
+        if has_uvs {
+            geometry.uvs.extend_from_slice(&mesh.uvs);
+        }
         geometry.positions.extend_from_slice(&mesh.positions);
         geometry.normals.extend_from_slice(&mesh.normals);
         geometry.triangles.extend_from_slice(&mesh.triangles);
@@ -174,21 +227,20 @@ impl Tables {
         }
     }
 
-    fn add_sphere(&mut self, center: glam::Vec3, radius: f32, material: u32, radiance: Rgb) {
+    /// A shape that is one primitive.
+    fn add_round(&mut self, shape: InstanceShape, frame: Mat3, material: u32, emitter: Emitter) {
         let first_primitive = self.geometry.materials.len() as u32;
-        self.geometry.instances.push(Instance {
-            shape: InstanceShape::Sphere { center, radius },
-            first_primitive,
-        });
-        let shape = EmitterShape::Sphere { center, radius };
-        self.add_primitive(
-            material,
-            Emitter {
-                shape,
-                radiance,
-                area: 4.0 * PI * radius * radius,
-            },
-        );
+        self.geometry.instances.push(Instance { shape, first_primitive });
+        if self.needs_frames() {
+            self.geometry.frames.push(frame);
+        }
+        self.add_primitive(material, emitter);
+    }
+
+    /// Whether some material asks where on its texture a point is, or which way that runs.
+    fn needs_frames(&self) -> bool {
+        let needs = self.materials.needs();
+        needs.textures || needs.tangents
     }
 
     fn add_primitive(&mut self, material: u32, emitter: Emitter) {

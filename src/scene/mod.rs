@@ -53,7 +53,8 @@
 //! | `camera` | `Perspective(origin, target, up (0, 1, 0), fov, fov_axis (Vertical))`, `ThinLens(`the same, `aperture_radius, focus_distance (`to `target))`, `Orthographic(origin, target, up (0, 1, 0), height)` | [`CameraDescription`] |
 //! | `film` | `width`, `height`, `filter` (`Box(radius: 0.5)`) | [`FilmDescription`] |
 //! | filters | `Box(radius 0.5)`, `Tent(radius 1)`, `Gaussian(radius 1.5, sigma 0.5)` | [`FilterDescription`] |
-//! | `materials` | `Diffuse`, `Conductor`, `Dielectric`, by name | [`MaterialDescription`] |
+//! | `textures` | `Checkerboard(even (0.4), odd (0.2), scale (1, 1))`, `Bitmap(file, encoding (Auto), filter (Bilinear), wrap (Repeat), scale (1, 1))`, by name | [`TextureDescription`] |
+//! | `materials` | `Diffuse`, `Conductor`, `RoughConductor`, `Dielectric`, `RoughDielectric`, `Plastic`, `TwoSided`, by name | [`MaterialDescription`] |
 //! | `lights` | a list of `Point`, `Spot`, `Directional`, `Environment`, `Sun`, `Sky` | [`LightDescription`] |
 //! | `shapes` | a list of `name` (none), `shape`, `material`, `emission` (none), `transform` (none) | [`ShapeDescription`] |
 //! | shapes | `Quad`, `Box`, `Sphere`, `Obj` | [`ShapeKind`] |
@@ -103,13 +104,15 @@ mod shapes;
 mod syntax;
 #[cfg(test)]
 mod testing;
+mod textures;
 pub mod transform;
 pub mod validate;
 
 pub use compile::{Scene, SceneOverrides};
 pub use description::{
-    CameraDescription, FilmDescription, FilterDescription, FovAxis, LightDescription, MaterialDescription,
-    SceneDescription, SettingsDescription, ShapeDescription, ShapeKind, TransformStep,
+    CameraDescription, ColorDescription, FilmDescription, FilterDescription, FovAxis, LightDescription,
+    MaterialDescription, SceneDescription, SettingsDescription, ShapeDescription, ShapeKind, TextureDescription,
+    TextureEncoding, TextureFilter, TextureWrap, TransformStep,
 };
 pub use error::{SceneError, SceneWarning, nearest_name};
 pub use flatten::{Emission, Flattened, Geometry, Instance, flatten};

@@ -10,8 +10,9 @@ pub fn trace_loop(world: &mut World) {
     let mut depth = 0;
     while world.resource::<Queues>().active > 0 {
         depth += 1;
-        if depth > world.resource::<Depths>().held() {
-            grow_tables(world, depth);
+        // One more: a light subpath's vertex brings an entry to its chain's list, behind that of the chain's own pixel.
+        if depth >= world.resource::<Depths>().held() {
+            grow_tables(world, depth + 1);
         }
         world.run_schedule(TraceLoop);
     }

@@ -158,16 +158,17 @@ pub(super) fn describe(material: &tobj::Material) -> MaterialDescription {
         Some(3 | 5) => {
             // With eta = 0, Fresnel's equations reflect everything at any angle.
             return MaterialDescription::Conductor {
-                eta: Rgb::BLACK,
-                k: Rgb::ONE,
-                reflectance: colour(material.specular, Rgb::ONE),
+                metal: None,
+                eta: Some(Rgb::BLACK),
+                k: Some(Rgb::ONE),
+                reflectance: colour(material.specular, Rgb::ONE).into(),
                 two_sided: true,
             };
         }
         _ => {
             let reflectance = colour(material.diffuse, Rgb::BLACK);
             return MaterialDescription::Diffuse {
-                reflectance,
+                reflectance: reflectance.into(),
                 two_sided: true,
             };
         }

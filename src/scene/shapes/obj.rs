@@ -337,7 +337,7 @@ mod tests {
         );
         assert_eq!((emission.of(0), emission.of(1)), (lamp, black));
         let described = |index: usize| &flattened.materials[index].1;
-        let grey = Rgb::splat(0.5);
+        let grey = Rgb::splat(0.5).into();
         assert_eq!(
             *described(2),
             MaterialDescription::Diffuse {
@@ -346,7 +346,7 @@ mod tests {
             }
         );
         assert!(matches!(described(3), MaterialDescription::Dielectric { interior_ior, .. } if *interior_ior == 1.33));
-        let mirror = Rgb::new(0.9, 0.8, 0.7);
+        let mirror = Rgb::new(0.9, 0.8, 0.7).into();
         assert!(matches!(described(4), MaterialDescription::Conductor { reflectance, .. } if *reflectance == mirror));
     }
 

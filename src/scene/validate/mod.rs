@@ -4,12 +4,13 @@
 mod light;
 mod material;
 mod shape;
+mod texture;
 mod view;
 
 pub(super) use shape::MAX_RADIANCE;
 
 use super::at::At;
-use super::description::{MAX_DEPTH_LIMIT, SceneDescription, ShapeKind};
+use super::description::{MAX_DEPTH_LIMIT, MaterialDescription, SceneDescription, ShapeKind};
 use super::error::{SceneError, SceneWarning};
 use super::read::SceneSource;
 use std::collections::{BTreeMap, BTreeSet};
@@ -29,11 +30,21 @@ pub fn validate(source: &SceneSource) -> Result<Vec<SceneWarning>, SceneError> {
     }
     view::film(&root.key("film"), &scene.film)?;
     view::camera(&root.key("camera"), &scene.camera)?;
+    for (name, texture) in &scene.textures {
+        if name.is_empty() {
+            return Err(root.key("textures").name(name).error("a texture's name is empty", ""));
+        }
+        texture::check(&root.key("textures").key(name), texture)?;
+    }
+    let known = material::Known {
+        materials: &scene.materials,
+        textures: scene.textures.keys().map(String::as_str).collect(),
+    };
     for (name, material) in &scene.materials {
         if name.is_empty() {
             return Err(root.key("materials").name(name).error("a material's name is empty", ""));
         }
-        material::check(&root.key("materials").key(name), material)?;
+        material::check(&root.key("materials").key(name), material, &known)?;
     }
     for (index, light) in scene.lights.iter().enumerate() {
         light::check(&root.key("lights").index(index), light)?;
@@ -68,11 +79,12 @@ pub fn validate(source: &SceneSource) -> Result<Vec<SceneWarning>, SceneError> {
 
 /// One warning for all of them: each would walk the text again.
 fn unused_materials(root: &At, scene: &SceneDescription) -> Option<SceneWarning> {
-    let used: BTreeSet<&String> = scene
-        .shapes
-        .iter()
-        .filter_map(|shape| shape.material.as_ref())
-        .collect();
+    let named = scene.shapes.iter().filter_map(|shape| shape.material.as_ref());
+    let sides = scene.materials.values().flat_map(|material| match material {
+        MaterialDescription::TwoSided { front, back } => vec![front, back],
+        _ => Vec::new(),
+    });
+    let used: BTreeSet<&String> = named.chain(sides).collect();
     let unused: Vec<&String> = scene.materials.keys().filter(|name| !used.contains(name)).collect();
     let at = root.key("materials").name(unused.first()?);
     let mut names = unused
