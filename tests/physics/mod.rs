@@ -12,3 +12,4 @@ mod fresnel;
 mod furnace;
 mod furnace_smooth;
 mod lights;
+mod surroundings;

@@ -14,6 +14,7 @@ mod lights;
 mod primary;
 mod remote;
 mod resampling;
+mod round_lights;
 mod smooth;
 mod stream_lags;
 mod streams;
