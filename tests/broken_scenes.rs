@@ -773,6 +773,152 @@ fn mistakes_of_material_libraries() {
     insta::assert_snapshot!(report);
 }
 
+/// [`RON`] with one light.
+fn with_light(light: &str) -> String {
+    RON.replacen("    shapes: [", &format!("    lights: [{light}],\n    shapes: ["), 1)
+}
+
+#[test]
+fn mistakes_of_lights() {
+    let cases = [
+        ("valid", "Point(position: (1, 2, 3), intensity: (1, 2, 3))"),
+        (
+            "a kind of light misspelt",
+            "Pont(position: (1, 2, 3), intensity: (1, 2, 3))",
+        ),
+        ("a field misspelt", "Point(positon: (1, 2, 3), intensity: (1, 2, 3))"),
+        ("no intensity", "Point(position: (1, 2, 3))"),
+        (
+            "a negative intensity",
+            "Point(position: (1, 2, 3), intensity: (1, -2, 3))",
+        ),
+        (
+            "an intensity that is no number",
+            "Point(position: (1, 2, 3), intensity: (1, NaN, 3))",
+        ),
+        (
+            "an infinite intensity",
+            "Point(position: (1, 2, 3), intensity: (1, 1e40, 3))",
+        ),
+        (
+            "a position too far away",
+            "Point(position: (1, 2e9, 3), intensity: (1, 1, 3))",
+        ),
+        (
+            "a valid spot",
+            "Spot(position: (1, 2, 3), target: (0, 0, 0), intensity: (1, 1, 1))",
+        ),
+        (
+            "a spot that aims nowhere",
+            "Spot(position: (1, 2, 3), target: (1, 2, 3), intensity: (1, 1, 1))",
+        ),
+        (
+            "a cutoff of zero",
+            "Spot(position: (1, 2, 3), target: (0, 0, 0), intensity: (1, 1, 1), cutoff: 0)",
+        ),
+        (
+            "a cutoff beyond a right angle",
+            "Spot(position: (1, 2, 3), target: (0, 0, 0), intensity: (1, 1, 1), cutoff: 91)",
+        ),
+        (
+            "a beam beyond the cutoff",
+            "Spot(position: (1, 2, 3), target: (0, 0, 0), intensity: (1, 1, 1), cutoff: 10, beam: 11)",
+        ),
+        (
+            "a negative beam",
+            "Spot(position: (1, 2, 3), target: (0, 0, 0), intensity: (1, 1, 1), beam: -1)",
+        ),
+        (
+            "no direction",
+            "Directional(direction: (0, 0, 0), irradiance: (1, 1, 1))",
+        ),
+        (
+            "a negative irradiance",
+            "Directional(direction: (0, 0, 1), irradiance: (1, 1, -1))",
+        ),
+        ("an environment of nothing", "Environment(scale: 2)"),
+        (
+            "an environment of two things",
+            "Environment(radiance: (1, 1, 1), file: \"sky.exr\")",
+        ),
+        ("a negative radiance", "Environment(radiance: (-1, 1, 1))"),
+        ("a negative scale", "Environment(radiance: (1, 1, 1), scale: -1)"),
+        (
+            "a radiance too bright with its scale",
+            "Environment(radiance: (1, 1e8, 1), scale: 1e8)",
+        ),
+        ("no way up", "Environment(radiance: (1, 1, 1), up: (0, 0, 0))"),
+        ("a turn without end", "Environment(radiance: (1, 1, 1), rotate: inf)"),
+        ("a picture without a name", "Environment(file: \"\")"),
+        ("a sun without a direction", "Sun(direction: (0, 0, 0))"),
+        ("a sun below the horizon", "Sun(direction: (1, -0.1, 0))"),
+        ("air too clear", "Sun(direction: (1, 1, 0), turbidity: 0.5)"),
+        ("air too thick", "Sky(sun_direction: (1, 1, 0), turbidity: 11)"),
+        (
+            "a sky's sun below its own horizon",
+            "Sky(sun_direction: (1, 1, 0), up: (0, -1, 0))",
+        ),
+        (
+            "ground that makes light",
+            "Sky(sun_direction: (1, 1, 0), albedo: (1, 1, 2))",
+        ),
+        (
+            "a valid sky and sun",
+            "Sky(sun_direction: (1, 1, 0)), Sun(direction: (1, 1, 0))",
+        ),
+    ];
+    let mut report = String::new();
+    for (what, light) in cases {
+        let found = findings("scene.ron", &with_light(light), Format::Ron, Path::new(""));
+        report.push_str(&format!("{what}\n  {}\n", found.replace('\n', "\n  ")));
+    }
+    insta::assert_snapshot!(report);
+}
+
+#[test]
+fn mistakes_of_environments() {
+    let folder = tempfile::tempdir().expect("a folder for the pictures");
+    let at = |name: &str| folder.path().join(name);
+    let write = |name: &str, bad: Option<[f32; 3]>| {
+        let mut picture = image::Rgb32FImage::from_pixel(4, 2, image::Rgb([1.0, 2.0, 3.0]));
+        if let Some(bad) = bad {
+            picture.put_pixel(2, 1, image::Rgb(bad));
+        }
+        picture.save(at(name)).expect("a picture");
+    };
+    write("good.exr", None);
+    write("good.hdr", None);
+    write("nan.exr", Some([1.0, f32::NAN, 1.0]));
+    write("negative.exr", Some([1.0, 1.0, -0.5]));
+    write("infinite.exr", Some([f32::INFINITY, 1.0, 1.0]));
+    write("bright.exr", Some([2e12, 1.0, 1.0]));
+    image::RgbImage::new(4, 2).save(at("sdr.png")).expect("a picture");
+    fs::write(at("text.exr"), "no picture").expect("a file");
+    fs::create_dir(at("folder.exr")).expect("a folder");
+    let whole = fs::read(at("good.exr")).expect("a picture");
+    fs::write(at("cut.exr"), &whole[..whole.len() - 20]).expect("a file");
+    let mut report = String::new();
+    for name in [
+        "good.exr",
+        "good.hdr",
+        "missing.exr",
+        "folder.exr",
+        "text.exr",
+        "cut.exr",
+        "sdr.png",
+        "nan.exr",
+        "negative.exr",
+        "infinite.exr",
+        "bright.exr",
+    ] {
+        let light = format!("Environment(file: \"{name}\")");
+        let found = findings("scene.ron", &with_light(&light), Format::Ron, folder.path());
+        report.push_str(&format!("{found}\n"));
+    }
+    let report = report.replace(&format!("{}/", folder.path().display()), "FOLDER/");
+    insta::assert_snapshot!(report);
+}
+
 #[test]
 fn files_that_are_no_scenes() {
     let folder = tempfile::tempdir().expect("a folder for the scenes");

@@ -1,10 +1,24 @@
 //! The scene reader against text that nobody meant: it returns, whatever it is given.
 
 use super::broken_scenes::{JSON, RON};
-use chainlight::scene::{Format, Geometry, SceneSource, Step, flatten, parse_scene};
+use chainlight::light::EmissionDensities;
+use chainlight::scene::{Format, Geometry, Scene, SceneOverrides, SceneSource, Step, flatten, parse_scene};
+use glam::Vec3;
 use proptest::prelude::*;
 use std::fs;
 use std::path::Path;
+
+/// A scene of lights.
+const LIT: &str = r#"(version: 1, camera: Perspective(origin: (0, 0, 5), target: (0, 0, 0), fov: 40), film: (width: 4, height: 4),
+    materials: {"white": Diffuse(reflectance: (0.5, 0.5, 0.5))},
+    lights: [
+        Point(position: (1, 2, 3), intensity: (4, 5, 6)),
+        Spot(position: (1, 2, 3), target: (0, 1, 0), intensity: (4, 5, 6), cutoff: 30, beam: 20),
+        Directional(direction: (1, -2, 3), irradiance: (4, 5, 6)),
+        Environment(radiance: (1, 2, 3), scale: 2, up: (0, 1, 0), rotate: 30),
+        Sun(direction: (1, 2, 1), turbidity: 3, scale: 2, up: (0, 1, 0)),
+    ],
+    shapes: [(shape: Sphere(center: (0, 0, 0), radius: 1), material: "white", emission: (1, 1, 1))])"#;
 
 const CASES: u32 = 400;
 
@@ -280,6 +294,29 @@ proptest! {
     fn other_scenes_mutated_or_with_odd_numbers_are_flattened_or_refused(ron in mutated(OTHER), odd in renumbered(OTHER)) {
         exercise(&ron, Format::Ron, Path::new(""));
         exercise(&odd, Format::Ron, Path::new(""));
+    }
+
+    #[test]
+    fn lights_with_odd_numbers_are_placed_or_refused(ron in renumbered(LIT)) {
+        let Ok(source) = parse_scene("scene", &ron, Format::Ron, Path::new("")) else { return Ok(()) };
+        let Ok(flattened) = flatten(&source) else { return Ok(()) };
+        let Ok(scene) = Scene::compile(&source.description, &flattened, SceneOverrides::default()) else { return Ok(()) };
+        prop_assert!(scene.bounding_sphere().radius > 0.0);
+        prop_assert!(scene.lights.max_radiance().is_finite());
+        for step in 0..32_u32 {
+            let u = |factor: u32| (step.wrapping_mul(factor) % 33).min(32) as f32 / 33.0;
+            let (choice, pair, other) = (f64::from(u(7)), [u(5), u(11)], [u(13), u(17)]);
+            if let Some(sample) = scene.lights.sample(Vec3::new(0.5, -0.25, 1.0), choice, pair) {
+                prop_assert!(sample.density > 0.0 && sample.density.is_finite() && sample.radiance.is_finite(), "{:?}", sample);
+                prop_assert!(sample.direction.is_normalized() && sample.target.is_finite(), "{:?}", sample);
+            }
+            if let Some(ray) = scene.lights.emit(choice, pair, other) {
+                prop_assert!(ray.ratio.is_finite() && !ray.ratio.is_black(), "{:?}", ray);
+                prop_assert!(ray.direction.is_normalized() && ray.origin.is_finite(), "{:?}", ray);
+                let EmissionDensities { position, direction } = ray.densities;
+                prop_assert!(position > 0.0 && position.is_finite() && direction > 0.0 && direction.is_finite());
+            }
+        }
     }
 
     #[test]

@@ -13,8 +13,8 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 const SAMPLES: usize = 400_000;
-/// Powers of nine lights and of all together; irradiances of three environments.
-const FAMILY: Family = Family { tests: 13 };
+/// Irradiances of three environments.
+const FAMILY: Family = Family { tests: 3 };
 const SCENE: BoundingSphere = BoundingSphere {
     center: Vec3::new(1.0, 0.0, -1.0),
     radius: 2.0,
@@ -141,7 +141,9 @@ fn surroundings_of_one_radiance_are_a_furnace() {
     for (case, light) in lights.into_iter().enumerate() {
         let table = table(vec![light]);
         let values = irradiance(&table, Vec3::new(0.36, 0.48, -0.8), case);
-        FAMILY.is("furnace", Estimate::of(&values), PI, 1e-5, 0.01);
+        let estimate = Estimate::of(&values);
+        FAMILY.is("furnace", estimate, PI, 1e-5, 0.015);
+        FAMILY.is_not("furnace, off by 2 %", estimate, 1.02 * PI, 1e-5);
         for to in [Vec3::X, Vec3::NEG_Y, Vec3::new(0.6, 0.0, -0.8)] {
             assert!((table.radiance(0, to, to).r - 1.0).abs() < 1e-6);
         }

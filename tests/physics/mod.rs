@@ -4,6 +4,7 @@
 
 mod camera;
 mod direct_light;
+mod discrete_light;
 mod enclosure;
 mod energy;
 mod environment;
@@ -13,4 +14,5 @@ mod furnace_smooth;
 mod lights;
 mod other_renderer;
 mod rough;
+mod surroundings;
 mod textures;

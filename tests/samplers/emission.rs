@@ -43,7 +43,7 @@ fn emitted(case: usize, table: &LightTable) -> impl Iterator<Item = Emitted> {
 }
 
 /// Coordinates in the unit square of a point on an emitter, uniform where points are uniform in area.
-fn place(shape: EmitterShape, position: Vec3) -> [f64; 2] {
+pub fn place(shape: EmitterShape, position: Vec3) -> [f64; 2] {
     let p = position.as_dvec3();
     match shape {
         EmitterShape::Triangle(corners) => {
@@ -62,7 +62,7 @@ fn place(shape: EmitterShape, position: Vec3) -> [f64; 2] {
         EmitterShape::Disk { center, normal, radius } => {
             let d = axes(normal.as_dvec3()) * ((p - center.as_dvec3()) / f64::from(radius));
             let r2 = d.x * d.x + d.y * d.y;
-            [if r2 < 1.0 + 1e-5 { r2.min(1.0) } else { r2 }, angle(d.x, d.y) / TAU]
+            [if r2 < 1.0 + 1e-3 { r2.min(1.0) } else { r2 }, angle(d.x, d.y) / TAU]
         }
         EmitterShape::Cylinder { from, to, .. } => {
             let axis = to.as_dvec3() - from.as_dvec3();
@@ -75,7 +75,7 @@ fn place(shape: EmitterShape, position: Vec3) -> [f64; 2] {
 }
 
 /// A rotation that takes `z` to the third axis.
-fn axes(z: DVec3) -> DMat3 {
+pub fn axes(z: DVec3) -> DMat3 {
     let (x, y) = z.any_orthonormal_pair();
     DMat3::from_cols(x, y, z).transpose()
 }

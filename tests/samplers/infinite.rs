@@ -145,6 +145,31 @@ fn samples_state_the_density_and_radiance_of_their_direction() {
     }
 }
 
+/// The least and the largest numbers that streams draw, of lights with nothing but edges.
+#[test]
+fn the_ends_of_the_unit_interval_are_directions_too() {
+    let ends = [0.0, 0.5, 1.0 - 1.0 / 16_777_216.0];
+    for (name, light) in every_infinite() {
+        let table = alone(light);
+        for choice in [0.0, 0.3, 1.0_f64.next_down()] {
+            for u in ends {
+                for v in ends {
+                    if let Some(sample) = table.sample(FROM, choice, [u, v]) {
+                        assert!(sample.density > 0.0 && sample.density.is_finite(), "{name}: {sample:?}");
+                        assert!(
+                            sample.radiance.is_finite() && sample.direction.is_normalized(),
+                            "{name}: {sample:?}"
+                        );
+                    }
+                    if let Some(ray) = table.emit(choice, [u, v], [v, u]) {
+                        assert!(ray.ratio.is_finite() && ray.origin.is_finite(), "{name}: {ray:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Points of the disc in its own frame, by area and angle.
 fn on_disc(ray: &Emitted) -> [f64; 2] {
     let d = ray.direction.as_dvec3();

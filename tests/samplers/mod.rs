@@ -16,6 +16,7 @@ mod remote;
 mod resampling;
 mod rough;
 mod rough_lobes;
+mod round_lights;
 mod smooth;
 mod stream_lags;
 mod streams;

@@ -42,7 +42,10 @@ pub fn wide() -> Vec<(&'static str, Light)> {
     };
     let smooth = |c: usize, r: usize| Rgb::new(1.0 + c as f32, 2.0 + r as f32, 3.0 + ((c * r) % 5) as f32);
     let noise = |c: usize, r: usize| {
-        let bits = (c as u32 * 2_654_435_761).wrapping_add(r as u32 * 40_503) >> 13;
+        let bits = (c as u32)
+            .wrapping_mul(2_654_435_761)
+            .wrapping_add((r as u32).wrapping_mul(40_503 << 13))
+            >> 13;
         if (8..20).contains(&c) || r > 12 {
             Rgb::BLACK
         } else {
@@ -67,7 +70,7 @@ pub fn wide() -> Vec<(&'static str, Light)> {
         ),
         (
             "hot texel at pole and seam",
-            picture(image(32, 16, Vec3::Y, 0.0, hot((0, 0)))),
+            picture(image(32, 16, Vec3::Z, 0.0, hot((0, 0)))),
         ),
         (
             "noisy picture with dark parts",

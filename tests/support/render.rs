@@ -13,9 +13,15 @@ pub const SIDE: u32 = 16;
 
 /// The compiled scene of a camera, materials and shapes in the format's own words, before a square film.
 pub fn scene(max_depth: u32, camera: &str, materials: &str, shapes: &str) -> Arc<Scene> {
+    lit_scene(max_depth, camera, materials, shapes, "")
+}
+
+/// [`scene`] with lights that are no shapes.
+pub fn lit_scene(max_depth: u32, camera: &str, materials: &str, shapes: &str, lights: &str) -> Arc<Scene> {
     let text = format!(
         "(version: 1, settings: (max_depth: {max_depth}), camera: Perspective({camera}),
-        film: (width: {SIDE}, height: {SIDE}), materials: {{{materials}}}, shapes: [{shapes}])"
+        film: (width: {SIDE}, height: {SIDE}), materials: {{{materials}}}, shapes: [{shapes}],
+        lights: [{lights}])"
     );
     let source = parse_scene("test.ron", &text, Format::Ron, Path::new("")).unwrap_or_else(|e| panic!("{}", e.plain()));
     let flattened = flatten(&source).unwrap_or_else(|e| panic!("{}", e.plain()));
