@@ -20,6 +20,10 @@ pub const EDGE_INSET_UNITS: f32 = 8.0;
 /// proportion to: it bounds how far a point of a needle moves. Guarded by `points_hardly_move_when_kept_off_edges`.
 pub const LEAST_INSET_HEIGHT: f64 = 0.125;
 
+/// How far beyond its rim a disk or a tube is still met, relative to its radius: 2⁻²³. Normals in f32 turn a disk by up to
+/// √3 · 2⁻²⁵ against the tube that it closes, which would leave a gap. Guarded by `nothing_leaves_a_closed_can`.
+pub const RIM_SLACK: f64 = 1.0 / (1u64 << 23) as f64;
+
 /// A box is entered if the computed entry is below the computed exit times this, the bound of Ize (2013, "Robust BVH ray
 /// traversal") under which no hit box is missed: three roundings in the entry, three in the exit, and here one more for
 /// the product with this number, rounded up to a number that f32 has. Guarded by `the_tree_finds_what_a_scan_finds` and

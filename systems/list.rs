@@ -1,7 +1,7 @@
 //! The systems of this crate as plans name them: one line each, in the order of the stages.
 
 use super::{accept, bootstrap, evaluate, propose, splat, trace};
-use crate::plan::{Phases, Place, Stage, SystemSpec, TraceStep, Traces};
+use crate::plan::{JoinStep, Phases, Place, Stage, SystemSpec, TraceStep, Traces};
 use crate::system;
 
 const PROPOSE: Place = Place::Stage(Stage::Propose);
@@ -72,6 +72,29 @@ list! {
     TRANSMIT_SEGMENTS = Place::Loop(TraceStep::Transmit), trace::transmit_segments, tracing(Traces::Segments);
     /// Plays Russian roulette and lists who goes on.
     CONTINUE_PATHS = Place::Loop(TraceStep::Continue), trace::continue_paths;
+    /// Starts a subpath on a light for every chain.
+    START_LIGHT_PATHS = PROPOSE, propose::start_light_paths, in_phases(Phases::ALL);
+    /// Lists every subpath for the coordinates of its start.
+    LIST_STARTS = PROPOSE, propose::list_starts, in_phases(Phases::ALL);
+    /// [`START_CAMERA_PATHS`] where starts have primary coordinates: in the first round of the trace loop.
+    START_CAMERA_PATHS_DRAWN = Place::Loop(TraceStep::Continue), propose::start_camera_paths;
+    /// [`START_LIGHT_PATHS`] likewise.
+    START_LIGHT_PATHS_DRAWN = Place::Loop(TraceStep::Continue), propose::start_light_paths;
+    /// Runs the loop of [`JoinStep`]s.
+    JOIN_LOOP = TRACE, trace::join_loop;
+    /// Offers the next strategies that join subpaths.
+    OFFER_CONNECTIONS = Place::Join(JoinStep::Offer), trace::offer_connections;
+    /// Traces the segments that they offer.
+    TRANSMIT_CONNECTIONS = Place::Join(JoinStep::Transmit), trace::transmit_connections, tracing(Traces::Segments);
+    /// Adds what arrived to the chains' lists.
+    BOOK_CONNECTIONS = Place::Join(JoinStep::Book), trace::book_connections;
+    /// Writes the target of every proposal's list.
+    EVALUATE_LISTS = EVALUATE, evaluate::evaluate_lists;
+    /// Takes every proposal's list.
+    ACCEPT_LISTS = ACCEPT, accept::accept_lists;
+    /// Adds each chain's list to the film.
+    SPLAT_LISTS = SPLAT, splat::splat_lists;
+
     /// Traces whole paths, one after another.
     TRACE_DEPTH_FIRST = TRACE, trace::trace_depth_first, tracing(Traces::Both);
 

@@ -50,7 +50,7 @@ pub mod trace;
 
 pub use timing::{Profile, Span, SystemCost};
 
-use crate::plan::{InPlan, Phases, SystemSpec, TilePlan};
+use crate::plan::{InPlan, Phases, Repeated, SystemSpec, TilePlan};
 use bevy_ecs::schedule::{IntoScheduleConfigs, Schedule, ScheduleLabel};
 use bevy_ecs::world::World;
 use timing::TimingExecutor;
@@ -85,6 +85,10 @@ impl Run {
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TraceLoop;
 
+/// The schedule that [`trace::join_loop`] repeats.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct JoinLoop;
+
 /// Builds the schedules that `plan` asks for into `world`, and the profile that their executors keep.
 ///
 /// # Panics
@@ -92,11 +96,15 @@ pub struct TraceLoop;
 pub fn build_schedules(plan: &TilePlan, world: &mut World) {
     let mut profile = Profile::default();
     let systems = || plan.systems.iter().map(|system| system.spec);
-    build(TraceLoop, systems().filter(|s| s.is_in_loop()), &mut profile, world);
+    let repeated = |which| systems().filter(move |s| s.repeated() == Some(which));
+    build(TraceLoop, repeated(Repeated::Trace), &mut profile, world);
+    if repeated(Repeated::Join).next().is_some() {
+        build(JoinLoop, repeated(Repeated::Join), &mut profile, world);
+    }
     for run in Run::ALL {
         // Independent estimators have neither bootstrap nor seeds.
         if run == Run::Step || systems().any(|s| s.phases() != Phases::STEP && s.phases().has(run.phase())) {
-            let here = systems().filter(|s| !s.is_in_loop() && s.phases().has(run.phase()));
+            let here = systems().filter(|s| s.repeated().is_none() && s.phases().has(run.phase()));
             build(run, here, &mut profile, world);
         }
     }

@@ -4,7 +4,8 @@
 
 use crate::film::{BlockGrid, Film, GroupFilm};
 use crate::material::KINDS;
-use crate::path::{VERTEX_DISCRETE, VERTEX_LENS};
+use crate::path::bidirectional::Strategies;
+use crate::path::{LIGHT_SUBPATH, VERTEX_DISCRETE, VERTEX_INFINITE, VERTEX_LENS};
 use crate::plan::{Extent, TablePlan, TilePlan};
 use crate::sampling::StreamKey;
 use crate::scene::Scene;
@@ -25,9 +26,22 @@ pub struct FilmRef(pub Arc<Film>);
 #[derive(Resource, Clone)]
 pub struct GroupFilmRef(pub Arc<Mutex<GroupFilm>>);
 
+/// Films that steps take turns among, for independent samples that bring light to many pixels.
+#[derive(Resource, Clone)]
+pub struct SplatFilms {
+    /// The films: step s goes to number s modulo their number.
+    pub films: Arc<[Mutex<GroupFilm>]>,
+    /// What light is multiplied with on its way to them.
+    pub scale: f32,
+}
+
 /// The blocks of the film that states are classed by.
 #[derive(Resource, Clone)]
 pub struct FilmBlocks(pub Arc<BlockGrid>);
+
+/// The strategies by which subpaths are joined, for techniques with both ends.
+#[derive(Resource, Clone, Copy, Debug)]
+pub struct StrategiesRef(pub Strategies);
 
 /// Which chains and which step the tile is at.
 #[derive(Resource, Clone, Copy, Debug)]
@@ -36,20 +50,72 @@ pub struct TilePlace {
     pub seed: u64,
     /// Global number of the tile's first chain.
     pub first_chain: u32,
-    /// Chains in use; the last tile of a render may have fewer than its capacity.
+    /// Chains in use; the last tile of a render may have fewer than it has room for.
     pub chains: u32,
-    /// Chains that the tables have room for: the distance between a vertex and the next of the same chain.
+    /// Subpaths that the tables have room for, one or two a chain: the distance between a vertex and the next of the same
+    /// subpath.
     pub capacity: u32,
+    /// The first subpath that starts at a light: that of chain c has number `lights_from` + c. Subpath c starts at the
+    /// camera, if `lights_from` is beyond it.
+    pub lights_from: u32,
+    /// The first depth whose vertices have primary coordinates: 0 where the numbers that start subpaths are among them.
+    pub first_coordinate: u32,
     /// The step about to run, counted from 0 over the whole render.
     pub step: u64,
 }
 
 impl TilePlace {
-    /// Number of the vertex at `depth` of chain `chain` in a vertex table.
+    /// Number of the vertex at `depth` of subpath `path` in a vertex table.
     #[inline]
     #[must_use]
-    pub const fn vertex(&self, chain: usize, depth: u32) -> usize {
-        depth as usize * self.capacity as usize + chain
+    pub const fn vertex(&self, path: usize, depth: u32) -> usize {
+        depth as usize * self.capacity as usize + path
+    }
+
+    /// Number of the primary coordinates of the vertex at `depth` of subpath `path`.
+    #[inline]
+    #[must_use]
+    pub const fn coordinate(&self, path: usize, depth: u32) -> usize {
+        self.vertex(path, depth - self.first_coordinate)
+    }
+
+    /// Whether a subpath starts at a light.
+    #[inline]
+    #[must_use]
+    pub const fn starts_at_light(&self, path: usize) -> bool {
+        path >= self.lights_from as usize
+    }
+
+    /// The subpaths of a chain: from the camera, from a light, or both.
+    pub fn subpaths(&self, chain: usize) -> impl Iterator<Item = usize> + use<> {
+        let from_light = chain
+            .checked_add(self.lights_from as usize)
+            .filter(|&path| path < self.capacity as usize);
+        let from_camera = (self.lights_from > 0).then_some(chain);
+        from_camera.into_iter().chain(from_light)
+    }
+
+    /// The chain of a subpath.
+    #[inline]
+    #[must_use]
+    pub const fn chain(&self, path: usize) -> usize {
+        if self.starts_at_light(path) {
+            path - self.lights_from as usize
+        } else {
+            path
+        }
+    }
+
+    /// The depth under which draws for the vertex at `depth` of subpath `path` are keyed: the two subpaths of a chain share no
+    /// numbers.
+    #[inline]
+    #[must_use]
+    pub const fn stream_depth(&self, path: usize, depth: u32) -> u32 {
+        if self.starts_at_light(path) {
+            depth | LIGHT_SUBPATH
+        } else {
+            depth
+        }
     }
 
     /// The key of the chain's random streams, from the bits that its column keeps.
@@ -67,6 +133,8 @@ pub struct Queues {
     pub active: usize,
     /// Chains in [`ConnectList`](crate::path::ConnectList).
     pub connect: usize,
+    /// Whether the subpaths in [`DrawList`](crate::path::DrawList) are yet to be started.
+    pub starting: bool,
     /// Chains in [`DrawList`](crate::path::DrawList).
     pub draw: usize,
     /// Chains in each list of [`ScatterList`](crate::path::ScatterList), by the scene's model number.
@@ -106,7 +174,7 @@ impl Depths {
         Self {
             held: bounds(|held, _| held),
             most: bounds(|_, most| most),
-            groups: plan.size / LANES as u32,
+            groups: plan.capacity() / LANES as u32,
             tables: Arc::clone(&tables),
         }
     }
@@ -211,7 +279,7 @@ fn earlier(a: Option<(u32, u64)>, b: Option<(u32, u64)>) -> Option<(u32, u64)> {
 #[inline]
 #[must_use]
 pub const fn connectable(kind: u32) -> bool {
-    kind != VERTEX_LENS && kind != VERTEX_DISCRETE
+    kind != VERTEX_LENS && kind != VERTEX_DISCRETE && kind != VERTEX_INFINITE
 }
 
 #[cfg(test)]

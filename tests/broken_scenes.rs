@@ -224,6 +224,61 @@ fn mistakes_of_the_camera_the_film_and_the_settings() {
 const GOLD: &str = "Conductor(eta: (0.14, 0.38, 1.44), k: (3.98, 2.39, 1.6))";
 
 #[test]
+fn mistakes_of_lenses_and_parallel_cameras() {
+    let pinhole = "Perspective(origin: (278, 273, -800), target: (278, 273, 0), fov: 39.3, fov_axis: Horizontal)";
+    let place = "origin: (278, 273, -800), target: (278, 273, 0)";
+    let lens = |rest: &str| format!("ThinLens({place}, fov: 39.3, {rest})");
+    let parallel = |rest: &str| format!("Orthographic({place}, {rest})");
+    let cases = [
+        ("a lens", lens("aperture_radius: 5")),
+        ("a lens of no radius", lens("aperture_radius: 0")),
+        (
+            "a lens of negative radius",
+            lens("aperture_radius: -1, focus_distance: 800"),
+        ),
+        ("a lens of infinite radius", lens("aperture_radius: inf")),
+        ("a lens without a radius", lens("focus_distance: 800")),
+        (
+            "a lens that focuses on itself",
+            lens("aperture_radius: 5, focus_distance: 0"),
+        ),
+        (
+            "a lens that focuses too near",
+            lens("aperture_radius: 5, focus_distance: 1e-5"),
+        ),
+        (
+            "a lens that focuses behind itself",
+            lens("aperture_radius: 5, focus_distance: -800"),
+        ),
+        (
+            "a lens too wide",
+            lens("aperture_radius: 5, fov: 200").replace("fov: 39.3, ", ""),
+        ),
+        (
+            "a lens misspelt",
+            lens("aperture_radius: 5").replace("ThinLens", "Thinlens"),
+        ),
+        ("parallel rays", parallel("height: 560")),
+        ("parallel rays over nothing", parallel("height: 0")),
+        ("parallel rays without a height", parallel("up: (0, 1, 0)")),
+        ("parallel rays with an angle", parallel("height: 560, fov: 40")),
+        (
+            "parallel rays upright along the view",
+            parallel("height: 560, up: (0, 0, 1)"),
+        ),
+        (
+            "parallel rays to nowhere",
+            parallel("height: 560").replace("(278, 273, 0)", "(278, 273, -800)"),
+        ),
+    ];
+    let cases: Vec<_> = cases
+        .iter()
+        .map(|(what, camera)| (*what, pinhole, camera.as_str()))
+        .collect();
+    insta::assert_snapshot!(broken_ron(&cases));
+}
+
+#[test]
 fn mistakes_of_materials() {
     let report = broken_ron(&[
         ("a reflectance above one", "(0.7, 0.7, 0.7)", "(0.7, 1.2, 0.7)"),

@@ -7,43 +7,26 @@
 //! | `up` | a direction that points up in the picture | world, any length | +y |
 //! | `fov` | full angle of view across the film's side named by `fov_axis` | degrees, (0, 180) | required |
 //! | `fov_axis` | `Horizontal`, `Vertical`, `Smaller` or `Larger` | | `Vertical` |
-//!
-//! Film coordinates are in pixels: (0, 0) is the top left corner, x to the right, y down, pixel (i, j) covers
-//! [i, i+1) × [j, j+1). A pixel's value is the radiance that arrives through it, averaged over the pixel by the filter.
 
+use super::frame::{FilmPlane, Pose};
+use super::{CameraRay, Projection};
 use crate::math;
-use crate::scene::{CameraDescription, FovAxis};
+use crate::scene::FovAxis;
 use glam::{Vec2, Vec3};
 
 /// A pinhole camera in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Perspective {
     origin: Vec3,
-    forward: Vec3,
-    /// From the film's centre to its right edge, on the plane at distance 1.
-    right: Vec3,
-    /// From the film's centre to its top edge, on the plane at distance 1.
-    up: Vec3,
-    /// Film size in pixels.
-    film: Vec2,
+    /// At distance 1.
+    plane: FilmPlane,
 }
 
 impl Perspective {
-    /// The camera that a (validated) description names, before a film of `width` x `height` pixels.
-    #[must_use]
-    pub fn new(description: &CameraDescription, width: u32, height: u32) -> Self {
-        let CameraDescription::Perspective {
-            origin,
-            target,
-            up,
-            fov,
-            fov_axis,
-        } = description;
-        let (origin, target) = (Vec3::from_array(*origin), Vec3::from_array(*target));
-        let forward = (target.as_dvec3() - origin.as_dvec3()).normalize();
-        let right = forward.cross(Vec3::from_array(*up).as_dvec3()).normalize();
-        let up = right.cross(forward);
-        let (w, h) = (width as f32, height as f32);
+    /// A camera with the full angle of view `fov`, in degrees, along an axis of the film, whose size is in pixels.
+    pub(super) fn new(pose: Pose, fov: f32, fov_axis: FovAxis, film: Vec2) -> Self {
+        let [right, up, forward] = pose.axes().map(|axis| axis.as_vec3());
+        let (w, h) = (film.x, film.y);
         let spanned = match fov_axis {
             FovAxis::Horizontal => w,
             FovAxis::Vertical => h,
@@ -51,12 +34,10 @@ impl Perspective {
             FovAxis::Larger => w.max(h),
         };
         let half = math::tan((0.5 * fov).to_radians());
+        let vectors = [right * (half * (w / spanned)), up * (half * (h / spanned)), forward];
         Self {
-            origin,
-            forward: forward.as_vec3(),
-            right: right.as_vec3() * (half * (w / spanned)),
-            up: up.as_vec3() * (half * (h / spanned)),
-            film: Vec2::new(w, h),
+            origin: Vec3::from_array(pose.origin),
+            plane: FilmPlane::new(vectors, film),
         }
     }
 
@@ -66,11 +47,48 @@ impl Perspective {
         self.origin
     }
 
-    /// The unit direction into the scene through film position `film` (pixels).
+    /// The film's image at distance 1.
+    pub(super) fn plane(&self) -> &FilmPlane {
+        &self.plane
+    }
+
+    /// The vector from the pinhole to the image of film position `film` at distance 1.
+    #[inline]
+    pub(super) fn towards(&self, film: Vec2) -> Vec3 {
+        let ndc = self.plane.ndc(film);
+        self.plane.forward + self.plane.right * ndc.x - self.plane.up * ndc.y
+    }
+
+    /// The ray into the scene through film position `film` (pixels).
     #[inline]
     #[must_use]
-    pub fn direction(&self, film: Vec2) -> Vec3 {
-        let ndc = film / self.film * 2.0 - 1.0;
-        (self.forward + self.right * ndc.x - self.up * ndc.y).normalize()
+    pub fn ray(&self, film: Vec2) -> CameraRay {
+        CameraRay {
+            origin: self.origin,
+            direction: self.towards(film).normalize(),
+        }
+    }
+
+    /// See [`Camera::density`](super::Camera::density).
+    #[inline]
+    #[must_use]
+    pub fn density(&self, direction: Vec3) -> f32 {
+        self.plane.density(direction)
+    }
+
+    /// See [`Camera::project`](super::Camera::project).
+    #[inline]
+    #[must_use]
+    pub fn project(&self, point: Vec3) -> Option<Projection> {
+        let to = point.as_dvec3() - self.origin.as_dvec3();
+        let parts = self.plane.parts(to);
+        if parts.z.is_nan() || parts.z <= 0.0 {
+            return None;
+        }
+        Some(Projection {
+            film: self.plane.position(parts.truncate() / parts.z)?,
+            direction: to.normalize().as_vec3(),
+            origin: self.origin,
+        })
     }
 }

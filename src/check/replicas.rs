@@ -51,6 +51,7 @@ impl Subject {
                 densities: true,
             },
             mutations: registry,
+            ..PlanOptions::default()
         };
         let plan = Plan::with(scene, technique, &options)?;
         let chains = plan.chains.clone().ok_or(CheckError::NoTechnique {

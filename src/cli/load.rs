@@ -2,7 +2,8 @@
 
 use super::chains::ChainArgs;
 use super::output::note;
-use crate::plan::{Plan, PlanOptions, Registry, Technique, UnknownTechnique};
+use crate::path::mis::Heuristic;
+use crate::plan::{Base, Plan, PlanOptions, Registry, Technique, UnknownTechnique};
 use crate::scene::{
     FilterDescription, Scene, SceneOverrides, Step, description::MAX_DEPTH_LIMIT, description::MAX_FILM_PIXELS,
 };
@@ -19,7 +20,7 @@ use std::time::{Duration, Instant};
 pub struct SceneArgs {
     /// The scene file: RON, or JSON by its extension
     pub scene: PathBuf,
-    /// How to estimate the picture: pt, pt-reference, pssmlt, pssmlt-reference [default: the scene's, or pt]
+    /// How to estimate the picture: pt, pt-reference, lt, bdpt, pssmlt, pssmlt-reference [default: the scene's, or pt]
     #[arg(long, value_name = "NAME")]
     pub technique: Option<Technique>,
     /// Film size in pixels instead of the scene's, such as 640x480
@@ -32,9 +33,25 @@ pub struct SceneArgs {
     #[arg(long, value_name = "CHAINS", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub tile: Option<u32>,
     #[command(flatten)]
+    pub strategies: StrategyArgs,
+    #[command(flatten)]
     pub mutations: MutationArgs,
     #[command(flatten)]
     pub chains: ChainArgs,
+}
+
+/// How techniques with both ends join subpaths.
+#[derive(Args, Clone, Debug, Default)]
+pub struct StrategyArgs {
+    /// What the chains of pssmlt run over: pt or bdpt
+    #[arg(long, value_name = "NAME", default_value_t)]
+    pub base: Base,
+    /// The only strategy of bdpt to use, with weight one: S vertices from the light and T from the camera; for tests
+    #[arg(long, value_name = "S,T", value_parser = parse_strategy)]
+    pub strategy: Option<(u32, u32)>,
+    /// How strategies of bdpt share paths: power or balance
+    #[arg(long, value_name = "NAME", default_value_t)]
+    pub heuristic: Heuristic,
 }
 
 /// Settings of mutations.
@@ -111,6 +128,9 @@ impl SceneArgs {
             tile_size: self.tile,
             chains: self.chains.settings()?,
             mutations,
+            base: self.strategies.base,
+            strategy: self.strategies.strategy,
+            heuristic: self.strategies.heuristic,
         };
         let plan = Plan::with(&scene, technique, &options)?;
         Ok(Loaded {
@@ -165,6 +185,17 @@ fn parse_size(text: &str) -> Result<(u32, u32), String> {
         return Err(format!("{width}x{height} has more than {MAX_FILM_PIXELS} pixels"));
     }
     Ok((width, height))
+}
+
+fn parse_strategy(text: &str) -> Result<(u32, u32), String> {
+    let form = || "expected S,T such as 1,2: vertices from the light, and from the camera".to_owned();
+    let (s, t) = text.split_once(',').ok_or_else(form)?;
+    let vertices = |digits: &str| digits.trim().parse::<u32>().map_err(|_| form());
+    let (s, t) = (vertices(s)?, vertices(t)?);
+    if t == 0 || s + t < 2 {
+        return Err("a path has two vertices at least, and one of them is on the lens".to_owned());
+    }
+    Ok((s, t))
 }
 
 #[cfg(test)]

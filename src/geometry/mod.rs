@@ -5,6 +5,9 @@
 //! lexicographic minimum of (distance, instance, primitive), whatever order the tree is walked in. Intersections are
 //! computed in f64 from f32 vertices and origins: near hits are found at any scale, shared edges do not leak.
 
+mod bounding_sphere;
+mod cylinder;
+mod disk;
 mod leaf;
 mod octahedral;
 mod pair;
@@ -12,18 +15,21 @@ mod queue;
 mod sphere;
 mod stack;
 mod surface;
+mod texture;
 mod trace;
 mod tree;
 mod triangle;
 
+pub use bounding_sphere::BoundingSphere;
 pub use queue::{
     HitColumns, HitDistance, HitInstance, HitPrimitive, HitUv, NO_HIT, RayColumns, RayDirection, RayOrigin,
     SegmentColumns, SegmentTarget, SegmentTransmittance,
 };
 pub(crate) use surface::offset_distance;
-pub use surface::{Hit, Instance, InstanceShape, SurfacePoint, TexturePoint, offset_origin};
+pub use surface::{Hit, Instance, InstanceShape, SurfacePoint, offset_origin};
+pub use texture::TexturePoint;
 
-use glam::Vec3;
+use glam::{Mat3, Vec2, Vec3};
 use leaf::LeafPrimitive;
 use tree::Tree;
 
@@ -39,9 +45,14 @@ pub struct Geometry {
     pub(crate) positions: Vec<Vec3>,
     /// Vertex normals of those meshes that have any, world space.
     pub(crate) normals: Vec<Vec3>,
+    /// Texture coordinates of those meshes that have any; empty where no material asks for them.
+    pub(crate) uvs: Vec<Vec2>,
+    /// The axes of every instance's own space, world space, unit, by instance number: round shapes are textured by them. Empty
+    /// where no material asks for them.
+    pub(crate) frames: Vec<Mat3>,
     /// Corner indices of all triangles, relative to their instance's first vertex.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// Material of every primitive (triangles and spheres), by global primitive number.
+    /// Material of every primitive, by global primitive number.
     pub(crate) materials: Vec<u32>,
     /// Light of every primitive, or [`NOT_EMITTING`], by global primitive number.
     pub(crate) lights: Vec<u32>,

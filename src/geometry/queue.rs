@@ -18,8 +18,8 @@ columns! {
     pub HitInstance: u32;
     /// Primitive that was hit, counted inside its instance.
     pub HitPrimitive: u32;
-    /// Where on the primitive: barycentric weights of a triangle's second and third corner, or a sphere's octahedral
-    /// coordinates. In f64: across a large triangle, f32 would move the point by more than its rounding.
+    /// Where on the primitive: barycentric weights of a triangle's second and third corner, a sphere's octahedral
+    /// coordinates, radii along the axes of a disk, or how far around a tube (in [0, 4)) and along it (in [0, 1]). In f64: across a large triangle, f32 would move the point by more than its rounding.
     pub HitUv: DVec2;
     /// The far end of a segment, world space, already moved off its surface.
     pub SegmentTarget: Vec3;

@@ -1,8 +1,8 @@
 //! Surface points: what a hit is in the world.
 
-use super::{Geometry, octahedral};
+use super::{Geometry, cylinder, disk, octahedral};
 use crate::tolerance::{EDGE_INSET_UNITS, LEAST_INSET_HEIGHT, ORIGIN_OFFSET_FLOOR, ORIGIN_OFFSET_UNITS};
-use glam::{DVec2, DVec3, Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 
 /// One shape of the scene.
 #[derive(Clone, Copy, Debug)]
@@ -26,11 +26,31 @@ pub enum InstanceShape {
         first_vertex: u32,
         /// First row in the normal table, if the mesh is smooth.
         first_normal: Option<u32>,
+        /// First row in the table of texture coordinates, if the mesh has any and the scene asks for them.
+        first_uv: Option<u32>,
     },
     /// An analytic sphere, world space.
     Sphere {
         /// Centre.
         center: Vec3,
+        /// Radius.
+        radius: f32,
+    },
+    /// An analytic disk, world space.
+    Disk {
+        /// Centre.
+        center: Vec3,
+        /// Unit normal.
+        normal: Vec3,
+        /// Radius.
+        radius: f32,
+    },
+    /// An analytic tube, open at its ends, world space.
+    Cylinder {
+        /// Centre of one end.
+        from: Vec3,
+        /// Centre of the other end.
+        to: Vec3,
         /// Radius.
         radius: f32,
     },
@@ -42,7 +62,7 @@ impl Instance {
     pub fn primitive_count(&self) -> u32 {
         match self.shape {
             InstanceShape::Mesh { triangle_count, .. } => triangle_count,
-            InstanceShape::Sphere { .. } => 1,
+            InstanceShape::Sphere { .. } | InstanceShape::Disk { .. } | InstanceShape::Cylinder { .. } => 1,
         }
     }
 }
@@ -63,7 +83,7 @@ pub struct Hit {
 pub struct SurfacePoint {
     /// Position.
     pub position: Vec3,
-    /// Unit normal of the surface itself: by winding for triangles, outwards for spheres.
+    /// Unit normal of the surface itself: by winding for triangles, outwards for spheres and tubes.
     pub geometric_normal: Vec3,
     /// Unit normal to shade with: interpolated from vertices, on the geometric normal's side.
     pub shading_normal: Vec3,
@@ -75,32 +95,7 @@ pub struct SurfacePoint {
     pub light: u32,
 }
 
-/// What textures and materials that are not the same all around ask of a surface point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TexturePoint {
-    /// Texture coordinates.
-    pub uv: Vec2,
-    /// The direction in which u grows, world space, unit, orthogonal to the shading normal; zero where there is none, and any
-    /// orthogonal direction will do.
-    pub tangent: Vec3,
-}
-
-impl TexturePoint {
-    /// A point of a surface without texture coordinates.
-    pub const NONE: Self = Self {
-        uv: Vec2::ZERO,
-        tangent: Vec3::ZERO,
-    };
-}
-
 impl Geometry {
-    /// Texture coordinates and tangent of a hit.
-    #[must_use]
-    pub fn texture_point(&self, hit: Hit) -> TexturePoint {
-        let _ = hit;
-        TexturePoint::NONE
-    }
-
     /// The corners of a mesh's triangle, world space; `None` if there is no such triangle.
     pub(crate) fn corners(&self, instance: &Instance, primitive: u32) -> Option<[Vec3; 3]> {
         let InstanceShape::Mesh {
@@ -114,6 +109,23 @@ impl Geometry {
         };
         let triangle = (primitive < triangle_count).then(|| self.triangles[(first_triangle + primitive) as usize])?;
         Some(triangle.map(|corner| self.positions[(first_vertex + corner) as usize]))
+    }
+
+    /// The unit shading normal of a triangle of a mesh whose normals begin at `first_normal`, at a point with weights `uv` of
+    /// its second and third corner; `normal`, the triangle's own, where it has none.
+    pub(super) fn shading_normal(
+        &self,
+        first_normal: Option<u32>,
+        corners: [u32; 3],
+        uv: DVec2,
+        normal: DVec3,
+    ) -> DVec3 {
+        first_normal.map_or(normal, |first| {
+            let [na, nb, nc] = corners.map(|i| self.normals[(first + i) as usize].as_dvec3());
+            let interpolated = na * (1.0 - uv.x - uv.y) + nb * uv.x + nc * uv.y;
+            let smooth = interpolated.try_normalize().unwrap_or(normal);
+            if smooth.dot(normal) < 0.0 { -smooth } else { smooth }
+        })
     }
 
     /// The surface point of a hit. The hit must name an instance and a primitive of this geometry.
@@ -133,12 +145,7 @@ impl Geometry {
                 let (ab, ac) = (b - a, c - a);
                 let cross = ab.cross(ac);
                 let normal = cross.normalize();
-                let shading = first_normal.map_or(normal, |first| {
-                    let [na, nb, nc] = corners.map(|i| self.normals[(first + i) as usize].as_dvec3());
-                    let interpolated = na * (1.0 - u - v) + nb * u + nc * v;
-                    let smooth = interpolated.try_normalize().unwrap_or(normal);
-                    if smooth.dot(normal) < 0.0 { -smooth } else { smooth }
-                });
+                let shading = self.shading_normal(first_normal, corners, hit.uv, normal);
                 let size = ab.length() + ac.length();
                 let position = inset([a, b, c], u, v, size, cross.length());
                 (position, normal, shading, size)
@@ -147,6 +154,32 @@ impl Geometry {
                 let normal = octahedral::decode(hit.uv);
                 let radius = f64::from(radius);
                 (center.as_dvec3() + normal * radius, normal, normal, radius)
+            }
+            InstanceShape::Disk { center, normal, radius } => {
+                let [normal, x, y] = disk::basis(normal);
+                let center_distance = hit.uv.length();
+                let r = f64::from(radius);
+                let inset = rim_inset(center.as_dvec3().abs().max_element() + r, r) + disk::slack(center, radius);
+                let most = 1.0 - (inset / r).min(MOST_INSET);
+                let uv = if center_distance > most {
+                    hit.uv * (most / center_distance)
+                } else {
+                    hit.uv
+                };
+                let position = center.as_dvec3() + (x * uv.x + y * uv.y) * r;
+                (position, normal, normal, r)
+            }
+            InstanceShape::Cylinder { from, to, radius } => {
+                let [_, x, y] = cylinder::basis(from, to);
+                let around = cylinder::direction(hit.uv.x);
+                let normal = x * around.x + y * around.y;
+                let (r, axis) = (f64::from(radius), to.as_dvec3() - from.as_dvec3());
+                let size = axis.length() + r;
+                let coordinates = from.as_dvec3().abs().max(to.as_dvec3().abs()).max_element() + r;
+                let inset = rim_inset(coordinates, size) + cylinder::slack(from, to, radius);
+                let least = (inset / axis.length()).min(MOST_INSET);
+                let along = hit.uv.y.clamp(least, 1.0 - least);
+                (from.as_dvec3() + axis * along + normal * r, normal, normal, size)
             }
         };
         let global = (instance.first_primitive + hit.primitive) as usize;
@@ -163,6 +196,16 @@ impl Geometry {
     }
 }
 
+/// The most that a point is moved off an edge or a rim, as a share of the shape.
+const MOST_INSET: f64 = 0.125;
+
+/// How far points keep from rims, as from the edges of triangles: what closes the shape there must not come to lie before
+/// them by rounding. `coordinates` is the largest of the shape.
+fn rim_inset(coordinates: f64, size: f64) -> f64 {
+    let rounding = 0.5 * f64::from(f32::EPSILON) * coordinates;
+    f64::from(EDGE_INSET_UNITS) * rounding + f64::from(ORIGIN_OFFSET_FLOOR) * size
+}
+
 /// The point of a triangle with weights `u`, `v` of its second and third corner, or the one beside it that is off the
 /// edges by [`EDGE_INSET_UNITS`], or as far as a small or thin triangle allows: what rounding does to the point must not
 /// put it behind a wall that shares an edge. `cross` is twice the triangle's area.
@@ -173,7 +216,7 @@ fn inset([a, b, c]: [DVec3; 3], u: f64, v: f64, size: f64, cross: f64) -> DVec3 
     let distance = f64::from(EDGE_INSET_UNITS) * rounding + f64::from(ORIGIN_OFFSET_FLOOR) * size;
     // A corner's least weight: the distance over the corner's height above the opposite edge. Were it not for the lower
     // bound of the height, the tips of needles would move far.
-    let least = |edge: DVec3| (distance / (cross / edge.length()).max(LEAST_INSET_HEIGHT * size)).min(0.125);
+    let least = |edge: DVec3| (distance / (cross / edge.length()).max(LEAST_INSET_HEIGHT * size)).min(MOST_INSET);
     let (wa, wb, wc) = (1.0 - u - v, u, v);
     let (la, lb, lc) = (least(c - b), least(ac), least(ab));
     if wa >= la && wb >= lb && wc >= lc {

@@ -169,6 +169,7 @@ mod tests {
         geometry.triangles = (0..count).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
         geometry.instances.push(Instance {
             shape: InstanceShape::Mesh {
+                first_uv: None,
                 first_triangle: 0,
                 triangle_count: count,
                 first_vertex: 0,

@@ -54,3 +54,12 @@ pub(super) fn density(center: Vec3, radius: f32, from: Vec3) -> f32 {
         if density.is_finite() { density } else { 0.0 }
     })
 }
+
+/// A point uniform over the whole sphere's area, and its outward unit normal.
+#[inline]
+#[must_use]
+pub(super) fn point(center: Vec3, radius: f32, u: [f32; 2]) -> (Vec3, Vec3) {
+    let normal = warp::uniform_sphere(u).as_dvec3().normalize();
+    let position = center.as_dvec3() + normal * f64::from(radius);
+    (position.as_vec3(), normal.as_vec3())
+}

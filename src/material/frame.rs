@@ -37,6 +37,13 @@ impl Frame {
         }
     }
 
+    /// The two unit vectors across the normal.
+    #[inline]
+    #[must_use]
+    pub fn tangents(&self) -> (Vec3, Vec3) {
+        (self.x, self.y)
+    }
+
     /// A world direction in this frame.
     #[inline]
     #[must_use]

@@ -45,10 +45,21 @@ impl Table for RayTable {
 
 /// Vertex kind: the point on the lens where the path starts.
 pub const VERTEX_LENS: u32 = 0;
+/// The length of a subpath that has no vertex.
+pub const NO_SUBPATH: u32 = u32::MAX;
+
+/// The light of a segment that counts for the pixel which its chain samples.
+pub const OWN_PIXEL: u32 = u32::MAX;
+
 /// Vertex kind: a point on a surface, scattering with a density per solid angle, or where the path ended.
 pub const VERTEX_SURFACE: u32 = 1;
 /// Vertex kind: a point on a surface that scattered into one of a few directions (discrete measure).
 pub const VERTEX_DISCRETE: u32 = 2;
+
+/// Vertex kind: where a path starts on a light that is somewhere.
+pub const VERTEX_LIGHT: u32 = 3;
+/// Vertex kind: an end with a direction and no position: light from infinity, or a camera of parallel rays.
+pub const VERTEX_INFINITE: u32 = 4;
 
 columns! {
     /// Mixed key of the chain's random streams in this step, see [`StreamKey`](crate::sampling::StreamKey).
@@ -110,6 +121,25 @@ columns! {
     pub VertexDensity: f32;
     /// Radiance emitted at the vertex back along the path, weighted against light sampling.
     pub VertexEmission: Rgb;
+    /// The light that the vertex is on, or [`NOT_EMITTING`](crate::geometry::NOT_EMITTING).
+    pub VertexLight: u32;
+    /// Unit direction in which the path arrived at the vertex, world space.
+    pub VertexArrival: Vec3;
+    /// Density of the vertex, drawn from its own end of the path, see [`measure`](super::measure).
+    pub VertexForward: f64;
+    /// Density of scattering the other way, see [`Scattered::reverse`](crate::material::Scattered::reverse).
+    pub VertexReverse: f32;
+    /// Odds of the strategies that would end this subpath two vertices earlier, or before, see
+    /// [`bidirectional`](super::bidirectional).
+    pub VertexTail: f64;
+    /// What a segment brings if nothing is in its way.
+    pub SegmentLight: Rgb;
+    /// Length and signature of the path that a segment completes.
+    pub SegmentClass: u32;
+    /// The target of the brightest path of a sample so far.
+    pub BrightestLight: f32;
+    /// The pixel that a segment's light counts for, or [`OWN_PIXEL`].
+    pub SegmentPixel: u32;
     /// Light that was connected to at the vertex: f · |cos| · radiance / density · transmittance, weighted against
     /// meeting the light by scattering.
     pub VertexConnection: Rgb;

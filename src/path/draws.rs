@@ -6,6 +6,9 @@ use crate::sampling::{Purpose, StreamKey};
 use crate::scene::Scene;
 use glam::Vec2;
 
+/// The numbers that choose the centre of a lens: those of cameras that have no aperture.
+pub const LENS_CENTER: [f32; 2] = [0.5, 0.5];
+
 /// The numbers that choose a light and a point on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightDraw {
@@ -17,6 +20,8 @@ pub struct LightDraw {
 
 /// Where a path's numbers come from, vertex by vertex. Each is in [0, 1), and asked for at most once.
 pub trait PathDraws {
+    /// For choosing a point of the lens.
+    fn lens(&mut self) -> [f32; 2];
     /// Says that the path has reached a vertex at `depth` that may scatter: what is asked for next is for that vertex.
     fn reach(&mut self, depth: u32) {
         let _ = depth;
@@ -31,11 +36,42 @@ pub trait PathDraws {
     fn roulette(&mut self, depth: u32) -> f32;
 }
 
+/// Marks the depths of light subpaths where draws are keyed by them; no path is as long.
+pub const LIGHT_SUBPATH: u32 = 1 << 16;
+
+/// Whether roulette is played after the vertex whose draws are keyed by `depth`.
+const fn plays_roulette(depth: u32) -> bool {
+    depth & !LIGHT_SUBPATH >= roulette::FIRST_DEPTH
+}
+
 /// Numbers from keyed streams: independent from step to step.
 #[derive(Clone, Copy, Debug)]
 pub struct KeyedDraws(pub StreamKey);
 
+impl KeyedDraws {
+    /// For starting a path at a light: a light and a point on it, and a direction.
+    #[inline]
+    #[must_use]
+    pub fn emission(self) -> (LightDraw, [f32; 2]) {
+        let mut stream = self.0.stream(Purpose::EMISSION, 0);
+        let choice = stream.next_f64();
+        let point = stream.next_pair();
+        (LightDraw { choice, point }, stream.next_pair())
+    }
+
+    /// For choosing the pixel that light from the vertex at `depth` of a light path counts for.
+    #[inline]
+    #[must_use]
+    pub fn splat(self, depth: u32) -> f32 {
+        self.0.stream(Purpose::SPLAT, depth).next_f32()
+    }
+}
+
 impl PathDraws for KeyedDraws {
+    #[inline]
+    fn lens(&mut self) -> [f32; 2] {
+        self.0.stream(Purpose::LENS, 0).next_pair()
+    }
     #[inline]
     fn light(&mut self, depth: u32) -> LightDraw {
         let mut stream = self.0.stream(Purpose::LIGHT, depth);
@@ -152,7 +188,7 @@ impl VertexCoordinates {
         let scatter = [stream.next_u32(), stream.next_u32()];
         let choice = stream.next_u64();
         let light = [stream.next_u32(), stream.next_u32()];
-        let plays = depth >= roulette::FIRST_DEPTH;
+        let plays = plays_roulette(depth);
         Self {
             choice,
             light,
@@ -169,7 +205,7 @@ impl VertexCoordinates {
         let mut stream = key.stream(Purpose::PERTURB, depth);
         // Eight steps fill the lanes that seven need.
         let steps = kernel.steps::<8>(std::array::from_fn(|i| if i < 7 { stream.next_u32() } else { 0 }));
-        let plays = depth >= roulette::FIRST_DEPTH;
+        let plays = plays_roulette(depth);
         Self {
             scatter: [0, 1].map(|i| steps.narrow(i, self.scatter[i])),
             choice: steps.wide(2, self.choice),
@@ -186,7 +222,7 @@ impl VertexCoordinates {
         let scatter = self.scatter.map(|c| kernel.uniform_in_support(c, stream.next_u32()));
         let choice = kernel.uniform_in_support_wide(self.choice, stream.next_u32());
         let light = self.light.map(|c| kernel.uniform_in_support(c, stream.next_u32()));
-        let plays = depth >= roulette::FIRST_DEPTH;
+        let plays = plays_roulette(depth);
         Self {
             choice,
             light,
@@ -210,7 +246,7 @@ impl VertexCoordinates {
         if set.lights {
             sum += kernel.log_density_wide(self.choice, to.choice) + narrow(self.light, to.light);
         }
-        if depth >= roulette::FIRST_DEPTH {
+        if plays_roulette(depth) {
             sum += kernel.log_density(self.roulette, to.roulette);
         }
         if set.lobes {
@@ -222,9 +258,7 @@ impl VertexCoordinates {
     /// How many coordinates the vertex at `depth` has.
     #[must_use]
     pub const fn count(depth: u32, set: CoordinateSet) -> u32 {
-        2 + if set.lights { 3 } else { 0 }
-            + if depth >= roulette::FIRST_DEPTH { 1 } else { 0 }
-            + if set.lobes { 1 } else { 0 }
+        2 + if set.lights { 3 } else { 0 } + if plays_roulette(depth) { 1 } else { 0 } + if set.lobes { 1 } else { 0 }
     }
 
     /// The numbers that connect to a light.
@@ -249,6 +283,13 @@ impl VertexCoordinates {
     #[must_use]
     pub fn lobe_draw(self) -> f32 {
         to_f32(self.lobe)
+    }
+
+    /// The number that chooses a pixel, for vertices of light paths, which are not connected to lights.
+    #[inline]
+    #[must_use]
+    pub fn splat_draw(self) -> f32 {
+        to_f32(self.light[0])
     }
 
     /// The number that plays roulette.

@@ -3,9 +3,11 @@
 //! A path is x₀ x₁ … xₖ with k edges. **x₀ is on the lens**, xₖ on a light: a vertex's depth is the number of edges
 //! between it and the camera.
 
+pub mod bidirectional;
 mod columns;
 mod draws;
 mod film_position;
+pub mod measure;
 pub mod mis;
 mod primary;
 pub mod roulette;
@@ -13,8 +15,10 @@ mod scatterer;
 mod states;
 
 pub use columns::*;
-pub use draws::{CoordinateSet, FilmCoordinates, KeyedDraws, LightDraw, PathDraws, VertexCoordinates};
-pub use film_position::film_position;
+pub use draws::{
+    CoordinateSet, FilmCoordinates, KeyedDraws, LENS_CENTER, LIGHT_SUBPATH, LightDraw, PathDraws, VertexCoordinates,
+};
+pub use film_position::{film_position, pixel_of};
 pub use primary::*;
 pub use scatterer::{Connection, Scatterer};
 pub use states::*;

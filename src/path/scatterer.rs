@@ -1,10 +1,10 @@
 //! A surface point on a path: connecting it to a sampled light (next-event estimation), and scattering off it.
 
 use super::draws::LightDraw;
-use super::mis;
+use super::mis::Heuristic;
 use crate::color::Rgb;
 use crate::geometry::offset_origin;
-use crate::material::{Frame, Scattered, Transport};
+use crate::material::{Evaluated, Frame, Scattered, Transport};
 use crate::scene::Scene;
 use glam::{Vec2, Vec3};
 
@@ -66,12 +66,61 @@ impl Scatterer {
     /// direction in which the path goes on, and what was drawn; `None` if the path ends here.
     #[inline]
     #[must_use]
-    pub fn scatter(&self, sample: impl FnOnce(Vec3) -> Option<Scattered>) -> Option<(Vec3, Scattered)> {
+    pub fn scatter(
+        &self,
+        transport: Transport,
+        sample: impl FnOnce(Vec3) -> Option<Scattered>,
+    ) -> Option<(Vec3, Scattered)> {
         let frame = self.frame();
-        let outcome = sample(frame.to_local(-self.direction))?;
+        let mut outcome = sample(frame.to_local(-self.direction))?;
         let direction = frame.to_world(outcome.wo).normalize();
         // Reflection stays on its side and refraction crosses, on the shading surface as on the real one.
-        (self.sides_agree(direction) && !outcome.ratio.is_black()).then_some((direction, outcome))
+        if !self.sides_agree(direction) || outcome.ratio.is_black() {
+            return None;
+        }
+        if transport == Transport::Importance {
+            outcome.ratio = outcome.ratio * self.adjoint_correction(direction);
+        }
+        Some((direction, outcome))
+    }
+
+    /// Value and densities for a path that goes on in the unit direction `outgoing`; `None` where nothing is scattered that way.
+    #[inline]
+    #[must_use]
+    pub fn evaluate(&self, scene: &Scene, outgoing: Vec3, transport: Transport) -> Option<Evaluated> {
+        if !self.sides_agree(outgoing) {
+            return None;
+        }
+        let frame = self.frame();
+        let (wi, wo) = (frame.to_local(-self.direction), frame.to_local(outgoing));
+        let mut scattering = scene.materials.evaluate(self.material, self.uv, wi, wo, transport);
+        if scattering.value.is_black() {
+            return None;
+        }
+        if transport == Transport::Importance {
+            scattering.value = scattering.value * self.adjoint_correction(outgoing);
+        }
+        Some(scattering)
+    }
+
+    /// What makes scattering of light that travels along the path the adjoint of that of paths from the camera, where shading
+    /// normals are not the geometric ones: |ωᵢ·Nₛ| |ωₒ·N_g| / (|ωᵢ·N_g| |ωₒ·Nₛ|) (Veach 1997, §5.3, eq. 5.19).
+    #[inline]
+    #[must_use]
+    pub fn adjoint_correction(&self, outgoing: Vec3) -> f32 {
+        if self.normal == self.shading_normal {
+            return 1.0;
+        }
+        let shading = self.shading_normal.dot(self.direction) * self.normal.dot(outgoing);
+        let geometric = self.normal.dot(self.direction) * self.shading_normal.dot(outgoing);
+        (shading / geometric).abs()
+    }
+
+    /// Where a segment or a ray starts that leaves in this direction.
+    #[inline]
+    #[must_use]
+    pub fn leaving(&self, direction: Vec3) -> Vec3 {
+        offset_origin(self.position, self.normal, self.offset, direction)
     }
 
     /// Samples a light for this point. `None` if no light can reach it that way.
@@ -79,21 +128,15 @@ impl Scatterer {
     #[must_use]
     pub fn connect(&self, scene: &Scene, draw: LightDraw) -> Option<Connection> {
         let light = scene.lights.sample(self.position, draw.choice, draw.point)?;
-        if !self.sides_agree(light.direction) {
-            return None;
-        }
-        let frame = self.frame();
-        let (wi, wo) = (frame.to_local(-self.direction), frame.to_local(light.direction));
-        let scattering = scene
-            .materials
-            .evaluate(self.material, self.uv, wi, wo, Transport::Radiance);
-        if scattering.value.is_black() {
-            return None;
-        }
-        let weight = mis::power_heuristic(light.density, scattering.density);
+        let scattering = self.evaluate(scene, light.direction, Transport::Radiance)?;
+        let weight = if light.discrete {
+            1.0
+        } else {
+            Heuristic::Power.share(light.density, scattering.density)
+        };
         Some(Connection {
             value: scattering.value * light.radiance * (weight / light.density),
-            origin: offset_origin(self.position, self.normal, self.offset, light.direction),
+            origin: self.leaving(light.direction),
             target: light.target,
         })
     }

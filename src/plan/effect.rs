@@ -10,6 +10,8 @@ pub enum Effect {
     Emission,
     /// Light connected to from a surface that scatters with a density.
     DirectLight,
+    /// Light from outside the scene that rays meet which leave it.
+    Environment,
     /// Scattering off matt surfaces.
     DiffuseReflection,
     /// Blurred mirrors of metal.
@@ -20,18 +22,22 @@ pub enum Effect {
     SpecularReflection,
     /// Interfaces that reflect and refract.
     Refraction,
+    /// Colours that vary over a surface.
+    Textures,
 }
 
 impl Effect {
     /// Every effect.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Emission,
         Self::DirectLight,
+        Self::Environment,
         Self::DiffuseReflection,
         Self::GlossyReflection,
         Self::CoatedReflection,
         Self::SpecularReflection,
         Self::Refraction,
+        Self::Textures,
     ];
 
     /// The effect that materials of a model bring.
@@ -55,7 +61,8 @@ impl Effect {
             Self::GlossyReflection => "a shape has a rough conductor material",
             Self::CoatedReflection => "a shape has a plastic material",
             Self::Refraction => "a shape has a dielectric material",
-            Self::Emission | Self::DirectLight => "light arrives",
+            Self::Emission | Self::DirectLight | Self::Environment => "light arrives",
+            Self::Textures => "some material has a texture",
         }
     }
 
@@ -65,11 +72,13 @@ impl Effect {
         match self {
             Self::Emission => "emission",
             Self::DirectLight => "direct light",
+            Self::Environment => "environment",
             Self::DiffuseReflection => "diffuse reflection",
             Self::GlossyReflection => "glossy reflection",
             Self::CoatedReflection => "coated reflection",
             Self::SpecularReflection => "specular reflection",
             Self::Refraction => "refraction",
+            Self::Textures => "textures",
         }
     }
 }
@@ -107,7 +116,7 @@ fn decide(scene: &Scene, effect: Effect) -> (bool, String) {
             "nothing emits: the picture is black and no path is traced".to_owned(),
         );
     }
-    if effect != Effect::Emission && scene.max_depth < 2 {
+    if !matches!(effect, Effect::Emission | Effect::Environment) && scene.max_depth < 2 {
         return (
             false,
             "max_depth is 1: emitters seen directly, nothing scatters".to_owned(),
@@ -131,12 +140,38 @@ fn decide(scene: &Scene, effect: Effect) -> (bool, String) {
         | Effect::CoatedReflection
         | Effect::SpecularReflection
         | Effect::Refraction => by_kind(scene, effect),
+        Effect::Environment => environment(scene),
+        Effect::Textures if scene.materials.needs().textures => {
+            let names = scene.materials.textures.names().iter().map(String::as_str);
+            (true, list(&names.collect::<Vec<_>>()))
+        }
+        Effect::Textures => (false, "no material of a shape has a texture".to_owned()),
     }
 }
 
 fn emitters(scene: &Scene) -> String {
     let names: Vec<&str> = scene.light_names.iter().map(String::as_str).collect();
-    format!("{} emitting primitives: {}", scene.lights.len(), list(&names))
+    let (primitives, all) = (scene.lights.emitter_count(), scene.lights.len());
+    let what = match all - primitives {
+        0 => format!("{primitives} emitting primitives"),
+        others => format!("{primitives} emitting primitives and {others} lights that are no shapes"),
+    };
+    format!("{what}: {}", list(&names))
+}
+
+fn environment(scene: &Scene) -> (bool, String) {
+    let count = scene.lights.infinite().count();
+    if count == 0 {
+        (
+            false,
+            "nothing shines from outside the scene on rays that leave it".to_owned(),
+        )
+    } else {
+        (
+            true,
+            format!("rays that leave the scene meet {count} lights at infinity"),
+        )
+    }
 }
 
 /// Effects that materials of some models bring.

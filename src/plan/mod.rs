@@ -3,6 +3,7 @@
 //! Schedule and tables are built from the plan and nothing else ([`crate::render::TileWorld`]), so an effect that a
 //! scene does not call for has no system that runs and no column that takes memory. Every entry carries its reason.
 
+mod bidirectional;
 mod chains;
 mod effect;
 mod mutation;
@@ -22,13 +23,16 @@ pub use mutation::{
     AnyMutation, MAX_MUTATIONS, MovesVertices, Mutation, MutationPlan, Registered, Registry, StateSpace,
 };
 pub use support::{Region, Support};
-pub use system::{InPlan, Phases, Place, Stage, SystemPlan, SystemSpec, TraceStep, Traces};
+pub use system::{InPlan, JoinStep, Phases, Place, Repeated, Stage, SystemPlan, SystemSpec, TraceStep, Traces};
 pub use table::{ColumnPlan, Extent, TableId, TablePlan};
-pub use technique::{Technique, UnknownTechnique};
-pub use tile::TilePlan;
+pub use technique::{Base, Technique, UnknownTechnique};
+pub use tile::{Subpaths, TilePlan};
 
 use crate::film::{Film, GroupFilm};
+use crate::path::bidirectional::{Strategies, Weights};
+use crate::path::mis::Heuristic;
 use crate::scene::Scene;
+use bidirectional::BothEnds;
 
 /// What is asked of a plan beyond the technique.
 #[derive(Clone, Debug)]
@@ -39,6 +43,12 @@ pub struct PlanOptions {
     pub chains: ChainSettings,
     /// The mutations there are, with their settings.
     pub mutations: Registry,
+    /// What primary-sample-space chains run over.
+    pub base: Base,
+    /// The only strategy (s, t) of bidirectional path tracing to use, with weight one, instead of all: for tests.
+    pub strategy: Option<(u32, u32)>,
+    /// How weights are made of densities, where strategies share paths.
+    pub heuristic: Heuristic,
 }
 
 impl Default for PlanOptions {
@@ -47,6 +57,9 @@ impl Default for PlanOptions {
             tile_size: None,
             chains: ChainSettings::default(),
             mutations: crate::systems::propose::mutations(),
+            base: Base::default(),
+            strategy: None,
+            heuristic: Heuristic::default(),
         }
     }
 }
@@ -71,6 +84,10 @@ pub struct Plan {
     pub tile: TilePlan,
     /// The chains, for techniques that run some.
     pub chains: Option<ChainPlan>,
+    /// How subpaths are joined, for techniques with both ends.
+    pub strategies: Option<Strategies>,
+    /// Films that steps take turns among, where independent samples bring light to many pixels; otherwise 0.
+    pub splat_films: u32,
     /// How rays are traced.
     pub tracer: &'static str,
     /// Why they are traced so.
@@ -79,6 +96,32 @@ pub struct Plan {
     pub tree_bytes: u64,
     /// Memory of the film, in bytes.
     pub film_bytes: u64,
+}
+
+/// Films that the steps of independent samples take turns among: as many as groups of chains, for the same reason.
+const SPLAT_FILMS: u32 = 16;
+
+/// What `technique` asks of paths from both ends.
+fn both_ends<'a>(
+    scene: &'a Scene,
+    effects: &'a [EffectPlan],
+    technique: Technique,
+    options: &PlanOptions,
+) -> BothEnds<'a> {
+    let (subpaths, weights) = match (technique, options.strategy) {
+        (Technique::Lt, _) => (Subpaths::Light, Weights::Lens),
+        (_, Some((s, t))) => (Subpaths::Both, Weights::Only(s, t)),
+        _ => (Subpaths::Both, Weights::All),
+    };
+    BothEnds {
+        scene,
+        effects,
+        subpaths,
+        strategies: Strategies {
+            weights,
+            heuristic: options.heuristic,
+        },
+    }
 }
 
 impl Plan {
@@ -106,6 +149,7 @@ impl Plan {
     pub fn with(scene: &Scene, technique: Technique, options: &PlanOptions) -> Result<Self, ChainPlanError> {
         let effects = effect::effects(scene);
         let mut chains = None;
+        let mut strategies = None;
         let tile = match technique {
             Technique::Pt => TilePlan::new(
                 path_tracing::systems(scene, &effects),
@@ -117,10 +161,28 @@ impl Plan {
                 reference::tables(&effects),
                 options.tile_size,
             ),
+            Technique::Lt | Technique::Bdpt => {
+                let both = both_ends(scene, &effects, technique, options);
+                strategies = Some(both.strategies);
+                TilePlan::with_subpaths(both.subpaths, both.systems(), both.tables(), options.tile_size)
+            }
+            Technique::Pssmlt | Technique::PssmltReference if options.base == Base::Bdpt => {
+                if technique == Technique::PssmltReference {
+                    return Err(ChainPlanError::Base);
+                }
+                let mutations = choose_mutations(&options.mutations, StateSpace::PRIMARY, &effects)?;
+                let counts = options.chains.counts(scene.pixel_count());
+                let both = both_ends(scene, &effects, technique, options);
+                strategies = Some(both.strategies);
+                let states = pssmlt::over_bidirectional(&both);
+                let tile = chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size);
+                chains = Some(ChainPlan { counts, mutations });
+                tile
+            }
             Technique::Pssmlt | Technique::PssmltReference => {
                 let mutations = choose_mutations(&options.mutations, StateSpace::PRIMARY, &effects)?;
                 let counts = options.chains.counts(scene.pixel_count());
-                let states = pssmlt::states(scene, &effects);
+                let states = pssmlt::over_path_tracing(scene, &effects);
                 let tile = if technique == Technique::Pssmlt {
                     chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size)
                 } else {
@@ -131,15 +193,24 @@ impl Plan {
             }
         };
         let (width, height) = (scene.width, scene.height);
-        let film_bytes = match &chains {
-            Some(plan) => u64::from(plan.counts.groups) * GroupFilm::bytes(width, height),
-            None => Film::bytes(width, height),
+        let splat_films = if chains.is_none() && strategies.is_some() {
+            SPLAT_FILMS
+        } else {
+            0
+        };
+        let films = chains.as_ref().map_or(splat_films, |plan| plan.counts.groups);
+        let film_bytes = if films > 0 {
+            u64::from(films) * GroupFilm::bytes(width, height)
+        } else {
+            Film::bytes(width, height)
         };
         Ok(Self {
             technique,
             effects,
             tile,
             chains,
+            strategies,
+            splat_films,
             tracer: "binary tree, one ray after another",
             tracer_reason: format!(
                 "the only tracer so far; {} primitives",

@@ -2,7 +2,7 @@
 
 use super::effect::{EffectPlan, is_on};
 use super::table::{Extent, sampling_chains};
-use super::{Effect, SystemPlan, SystemSpec, TableId, TablePlan};
+use super::{Effect, SystemPlan, TableId, TablePlan};
 use crate::geometry::{
     HitDistance, HitInstance, HitPrimitive, HitUv, RayDirection, RayOrigin, SegmentTarget, SegmentTransmittance,
 };
@@ -18,60 +18,68 @@ pub(super) fn scatters(effects: &[EffectPlan]) -> bool {
 }
 
 /// Whether some paths cross interfaces between media.
-fn refracts(effects: &[EffectPlan]) -> bool {
+pub(super) fn refracts(effects: &[EffectPlan]) -> bool {
     is_on(effects, Effect::Refraction)
 }
 
 /// The lists of chains that wait to be scattered: one per model.
-fn scatter_lists(scene: &Scene) -> TablePlan {
+pub(super) fn scatter_lists(scene: &Scene) -> TablePlan {
     let models = scene.materials.kinds().len() as u32;
     let mut table = TablePlan::new(TableId::SCATTER, Extent::PerChain(models));
     table.column::<ScatterList>("one scatter system per material model");
     table
 }
 
-pub(super) fn systems(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> {
-    let mut systems = vec![SystemPlan::new(ASSIGN_PIXELS, "each chain samples one pixel per step")];
-    let mut add = |on: bool, spec: SystemSpec, reason| {
-        if on {
-            systems.push(SystemPlan::new(spec, reason));
-        }
-    };
-    let emission = is_on(effects, Effect::Emission);
-    let connects = is_on(effects, Effect::DirectLight);
-    add(emission, START_CAMERA_PATHS, "paths start at the camera");
-    add(emission, TRACE_LOOP, "paths are traced until none waits for a ray");
-    add(emission, EMIT_RAYS, "active chains wait for a ray");
-    add(emission, INTERSECT_RAYS, "rays have to meet something");
-    add(emission, EXTEND_PATHS, "what rays meet becomes path vertices");
-    add(
-        connects,
-        CONNECT_LIGHTS,
-        "lights are sampled from vertices that scatter with a density",
-    );
-    add(
-        connects,
-        TRANSMIT_SEGMENTS,
-        "what stands between vertex and light has to be known",
-    );
+/// The systems of the trace loop that walk paths, whichever end they start at.
+pub(super) fn walks(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> {
+    let mut systems = vec![
+        SystemPlan::new(TRACE_LOOP, "paths are traced until none waits for a ray"),
+        SystemPlan::new(EMIT_RAYS, "active chains wait for a ray"),
+        SystemPlan::new(INTERSECT_RAYS, "rays have to meet something"),
+        SystemPlan::new(EXTEND_PATHS, "what rays meet becomes path vertices"),
+    ];
     for &kind in scene.materials.kinds() {
         let effect = Effect::of(kind);
-        add(is_on(effects, effect), scatter_system(kind), effect.reason());
+        if is_on(effects, effect) {
+            systems.push(SystemPlan::new(scatter_system(kind), effect.reason()));
+        }
     }
-    let roulette = scene.max_depth > roulette::FIRST_DEPTH;
-    let reason = if roulette {
-        "paths go on, beyond depth 5 by roulette"
-    } else {
-        "paths go on until max_depth, before roulette"
-    };
-    add(scatters(effects), CONTINUE_PATHS, reason);
-    add(
-        emission,
-        GATHER_CONTRIBUTION,
-        "a path's light is the sum over its vertices",
-    );
-    add(true, ACCEPT_ALWAYS, "samples are independent: every proposal is taken");
-    add(true, SPLAT_SAMPLES, "samples go to the film");
+    if scatters(effects) {
+        let reason = if scene.max_depth > roulette::FIRST_DEPTH {
+            "paths go on, beyond depth 5 by roulette"
+        } else {
+            "paths go on until max_depth, before roulette"
+        };
+        systems.push(SystemPlan::new(CONTINUE_PATHS, reason));
+    }
+    systems
+}
+
+pub(super) fn systems(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> {
+    let mut systems = vec![SystemPlan::new(ASSIGN_PIXELS, "each chain samples one pixel per step")];
+    if is_on(effects, Effect::Emission) {
+        systems.push(SystemPlan::new(START_CAMERA_PATHS, "paths start at the camera"));
+        systems.extend(walks(scene, effects));
+        if is_on(effects, Effect::DirectLight) {
+            systems.push(SystemPlan::new(
+                CONNECT_LIGHTS,
+                "lights are sampled from vertices that scatter with a density",
+            ));
+            systems.push(SystemPlan::new(
+                TRANSMIT_SEGMENTS,
+                "what stands between vertex and light has to be known",
+            ));
+        }
+        systems.push(SystemPlan::new(
+            GATHER_CONTRIBUTION,
+            "a path's light is the sum over its vertices",
+        ));
+    }
+    systems.push(SystemPlan::new(
+        ACCEPT_ALWAYS,
+        "samples are independent: every proposal is taken",
+    ));
+    systems.push(SystemPlan::new(SPLAT_SAMPLES, "samples go to the film"));
     systems
 }
 
@@ -121,19 +129,11 @@ fn proposals(scene: &Scene, effects: &[EffectPlan]) -> TablePlan {
         .column::<VertexDensity>("weights light met by chance against light sampled")
         .column::<VertexEmission>("light met by scattering");
     if scatters(effects) {
+        surface_columns(&mut table, scene);
         table
-            .column::<VertexShadingNormal>("materials scatter about it")
-            .column::<VertexMaterial>("which material scatters")
             .column::<VertexInstance>("the path is kept by its surfaces, for what will change or replay it")
             .column::<VertexPrimitive>("the path is kept by its surfaces, for what will change or replay it")
             .column::<VertexUv>("the path is kept by its surfaces, for what will change or replay it");
-        let needs = scene.materials.needs();
-        if needs.textures {
-            table.column::<VertexTexture>("some material has a texture");
-        }
-        if needs.tangents {
-            table.column::<VertexTangent>("some material is not the same all around");
-        }
     }
     if is_on(effects, Effect::DirectLight) {
         table.column::<VertexConnection>("light connected to");
@@ -141,7 +141,22 @@ fn proposals(scene: &Scene, effects: &[EffectPlan]) -> TablePlan {
     table
 }
 
-fn rays(effects: &[EffectPlan]) -> TablePlan {
+/// Adds what materials are evaluated with.
+pub(super) fn surface_columns(table: &mut TablePlan, scene: &Scene) {
+    table
+        .column::<VertexShadingNormal>("materials scatter about it")
+        .column::<VertexMaterial>("which material scatters");
+    let needs = scene.materials.needs();
+    if needs.textures {
+        table.column::<VertexTexture>("some material has a texture");
+    }
+    if needs.tangents {
+        table.column::<VertexTangent>("some material is not the same all around");
+    }
+}
+
+/// The ray table without segments.
+pub(super) fn ray_columns() -> TablePlan {
     let mut table = TablePlan::new(TableId::RAYS, Extent::PerChain(1));
     table
         .column::<RayChain>("whose ray it is")
@@ -151,6 +166,11 @@ fn rays(effects: &[EffectPlan]) -> TablePlan {
         .column::<HitInstance>("what was hit")
         .column::<HitPrimitive>("what was hit")
         .column::<HitUv>("where on it");
+    table
+}
+
+fn rays(effects: &[EffectPlan]) -> TablePlan {
+    let mut table = ray_columns();
     if is_on(effects, Effect::DirectLight) {
         table
             .column::<SegmentTarget>("segments end on a light")

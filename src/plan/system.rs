@@ -40,6 +40,26 @@ pub enum TraceStep {
     Continue,
 }
 
+/// The steps of the loop that joins subpaths, in the order in which they run, until every strategy has been offered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum JoinStep {
+    /// Writes the segments of the next strategies, and what each would bring.
+    Offer,
+    /// Finds what passes along them.
+    Transmit,
+    /// Adds what arrived to the chains' lists.
+    Book,
+}
+
+/// A schedule that the trace stage repeats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Repeated {
+    /// The trace loop.
+    Trace,
+    /// The join loop.
+    Join,
+}
+
 /// Where in a step a system runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Place {
@@ -47,6 +67,8 @@ pub enum Place {
     Stage(Stage),
     /// In a step of the trace stage's loop.
     Loop(TraceStep),
+    /// In a step of the loop that joins subpaths, behind it.
+    Join(JoinStep),
 }
 
 /// In which runs of a tile's stages a system takes part.
@@ -99,7 +121,7 @@ impl Phases {
         match place {
             Place::Stage(Stage::Propose | Stage::Splat) => Self::STEP,
             Place::Stage(Stage::Accept) => Self::SEED.and(Self::STEP),
-            Place::Stage(Stage::Trace | Stage::Evaluate) | Place::Loop(_) => Self::ALL,
+            Place::Stage(Stage::Trace | Stage::Evaluate) | Place::Loop(_) | Place::Join(_) => Self::ALL,
         }
     }
 }
@@ -186,10 +208,14 @@ impl SystemSpec {
         self.traces
     }
 
-    /// Whether the system runs inside the trace stage's loop.
+    /// The loop that the system runs in, if it runs in one.
     #[must_use]
-    pub const fn is_in_loop(self) -> bool {
-        matches!(self.place, Place::Loop(_))
+    pub const fn repeated(self) -> Option<Repeated> {
+        match self.place {
+            Place::Stage(_) => None,
+            Place::Loop(_) => Some(Repeated::Trace),
+            Place::Join(_) => Some(Repeated::Join),
+        }
     }
 
     /// The stage that the system's time counts for.
@@ -197,7 +223,7 @@ impl SystemSpec {
     pub const fn stage(self) -> Stage {
         match self.place {
             Place::Stage(stage) => stage,
-            Place::Loop(_) => Stage::Trace,
+            Place::Loop(_) | Place::Join(_) => Stage::Trace,
         }
     }
 

@@ -212,9 +212,9 @@ impl TablePlan {
             .any(|column| (column.spec.type_name)() == std::any::type_name::<C>())
     }
 
-    /// Fixes the number of rows for a tile of `chains` chains.
-    pub(super) fn fit(&mut self, chains: u32) {
-        let groups = chains / LANES as u32;
+    /// Fixes the number of rows for a tile of so many subpaths.
+    pub(super) fn fit(&mut self, subpaths: u32) {
+        let groups = subpaths / LANES as u32;
         self.rows = match self.extent {
             Extent::OneGroup => 1,
             extent => extent.entries() * groups,

@@ -11,10 +11,54 @@ pub enum Technique {
     Pt,
     /// The same estimator traced depth first, one path after another: the oracle of the staged one, and its baseline.
     PtReference,
+    /// Light tracing (Dutré, Lafortune and Willems 1993): paths from lights, seen by the lens at each of their vertices. It
+    /// does not see what the lens sees by way of mirrors or smooth glass alone.
+    Lt,
+    /// Bidirectional path tracing (Veach and Guibas 1994; Lafortune and Willems 1993): a subpath from the camera and one from
+    /// a light, joined in every way.
+    Bdpt,
     /// Primary-sample-space Metropolis light transport (Kelemen, Szirmay-Kalos, Antal and Csonka 2002) over path tracing.
     Pssmlt,
     /// The same chains run depth first, one after another: the oracle of the staged ones, and their baseline.
     PssmltReference,
+}
+
+/// What primary-sample-space chains run over: which light a list of numbers stands for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Base {
+    /// A path of path tracing.
+    #[default]
+    Pt,
+    /// A pair of subpaths, joined in every way.
+    Bdpt,
+}
+
+impl Base {
+    /// The name on the command line and in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Pt => "pt",
+            Self::Bdpt => "bdpt",
+        }
+    }
+}
+
+impl fmt::Display for Base {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Base {
+    type Err = &'static str;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        [Self::Pt, Self::Bdpt]
+            .into_iter()
+            .find(|base| base.name() == name)
+            .ok_or("expected pt or bdpt")
+    }
 }
 
 /// No technique has this name.
@@ -39,9 +83,16 @@ fn hint(nearest: &Option<&'static str>) -> String {
 
 impl Technique {
     /// Every technique.
-    pub const ALL: [Self; 4] = [Self::Pt, Self::PtReference, Self::Pssmlt, Self::PssmltReference];
+    pub const ALL: [Self; 6] = [
+        Self::Pt,
+        Self::PtReference,
+        Self::Lt,
+        Self::Bdpt,
+        Self::Pssmlt,
+        Self::PssmltReference,
+    ];
 
-    /// Those whose samples are independent.
+    /// Those whose samples are independent, and each of one pixel.
     pub const INDEPENDENT: [Self; 2] = [Self::Pt, Self::PtReference];
 
     /// The name on the command line and in files.
@@ -50,6 +101,8 @@ impl Technique {
         match self {
             Self::Pt => "pt",
             Self::PtReference => "pt-reference",
+            Self::Lt => "lt",
+            Self::Bdpt => "bdpt",
             Self::Pssmlt => "pssmlt",
             Self::PssmltReference => "pssmlt-reference",
         }

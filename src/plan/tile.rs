@@ -2,8 +2,31 @@
 //! cache.
 
 use super::system::SystemPlan;
-use super::table::TablePlan;
+use super::table::{Extent, TableId, TablePlan};
 use crate::table::LANES;
+
+/// The subpaths of a chain.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Subpaths {
+    /// One, from the camera.
+    #[default]
+    Camera,
+    /// One, from a light.
+    Light,
+    /// One from each end.
+    Both,
+}
+
+impl Subpaths {
+    /// How many a chain has.
+    #[must_use]
+    pub const fn count(self) -> u32 {
+        match self {
+            Self::Camera | Self::Light => 1,
+            Self::Both => 2,
+        }
+    }
+}
 
 /// What a tile's world is built from, and nothing else.
 #[derive(Clone, Debug)]
@@ -16,36 +39,76 @@ pub struct TilePlan {
     pub size: u32,
     /// Why the tile has this size.
     pub reason: String,
+    /// The subpaths of each of its chains: every table has room for all of them.
+    pub subpaths: Subpaths,
 }
 
 impl TilePlan {
     /// Plans a tile of `systems` and `tables` for `size` chains, rounded up to whole lane groups; if none is given, for as
     /// many as fit the cache.
     #[must_use]
-    pub fn new(mut systems: Vec<SystemPlan>, mut tables: Vec<TablePlan>, size: Option<u32>) -> Self {
+    pub fn new(systems: Vec<SystemPlan>, tables: Vec<TablePlan>, size: Option<u32>) -> Self {
+        Self::with_subpaths(Subpaths::Camera, systems, tables, size)
+    }
+
+    /// The same for chains of these subpaths.
+    #[must_use]
+    pub fn with_subpaths(
+        subpaths: Subpaths,
+        mut systems: Vec<SystemPlan>,
+        tables: Vec<TablePlan>,
+        size: Option<u32>,
+    ) -> Self {
         systems.sort_by_key(|system| system.spec.place());
         let (size, reason) = match size {
             Some(asked) => (
                 asked.clamp(1, MAX_CHAINS).next_multiple_of(LANES as u32),
                 "asked for".to_owned(),
             ),
-            None => choose(&tables),
+            None => choose(&tables, subpaths),
         };
-        for table in &mut tables {
-            table.fit(size);
-        }
-        Self {
+        let mut tile = Self {
             systems,
             tables,
-            size,
-            reason,
+            size: 0,
+            reason: String::new(),
+            subpaths,
+        };
+        tile.resize(size, reason);
+        tile
+    }
+
+    /// Subpaths that the tables have room for.
+    #[must_use]
+    pub const fn capacity(&self) -> u32 {
+        self.size * self.subpaths.count()
+    }
+
+    /// The first subpath that starts at a light, see [`TilePlace`](crate::systems::tile::TilePlace).
+    #[must_use]
+    pub const fn lights_from(&self) -> u32 {
+        match self.subpaths {
+            Subpaths::Camera => u32::MAX,
+            Subpaths::Light => 0,
+            Subpaths::Both => self.size,
+        }
+    }
+
+    /// The first depth whose vertices have primary coordinates.
+    #[must_use]
+    pub fn first_coordinate(&self) -> u32 {
+        let table = self.tables.iter().find(|table| table.id == TableId::PROPOSED_PRIMARY);
+        match table.map(|table| table.extent) {
+            Some(Extent::PerDepth { first, .. }) => first,
+            _ => 1,
         }
     }
 
     /// Gives the tile another size, a multiple of [`LANES`].
     pub(super) fn resize(&mut self, size: u32, reason: String) {
+        let capacity = size * self.subpaths.count();
         for table in &mut self.tables {
-            table.fit(size);
+            table.fit(capacity);
         }
         (self.size, self.reason) = (size, reason);
     }
@@ -81,8 +144,8 @@ const TYPICAL_VERTICES: u32 = crate::path::roulette::FIRST_DEPTH + 1;
 const RANGE: (u32, u32) = (64, 4096);
 
 /// Chooses a power of two, and says why.
-fn choose(tables: &[TablePlan]) -> (u32, String) {
-    let bytes: usize = tables.iter().map(touched_bytes).sum();
+fn choose(tables: &[TablePlan], subpaths: Subpaths) -> (u32, String) {
+    let bytes = tables.iter().map(touched_bytes).sum::<usize>() * subpaths.count() as usize;
     let fitting = (CACHE_BUDGET / bytes.max(1)) as u32;
     let size =
         (fitting.max(1).next_power_of_two() / if fitting.is_power_of_two() { 1 } else { 2 }).clamp(RANGE.0, RANGE.1);

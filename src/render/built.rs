@@ -1,8 +1,8 @@
 //! What was really built, read back from a tile's world.
 
 use super::TileWorld;
-use crate::plan::{Phases, TableId, TilePlan};
-use crate::systems::{Run, TraceLoop};
+use crate::plan::{Phases, Repeated, TableId, TilePlan};
+use crate::systems::{JoinLoop, Run, TraceLoop};
 use crate::table::LANES;
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::schedule::{ScheduleLabel, Schedules};
@@ -39,6 +39,8 @@ pub struct Built {
     pub step: Vec<String>,
     /// Full names of the systems of the trace loop, in the order in which they run.
     pub trace_loop: Vec<String>,
+    /// Full names of the systems of the join loop, in the order in which they run.
+    pub join_loop: Vec<String>,
     /// Full type names of the world's resources, sorted.
     pub resources: Vec<String>,
     /// Components on rows that are in none of the tables: must be empty.
@@ -56,6 +58,7 @@ impl Built {
             tables: Vec::new(),
             step: system_names(world, Run::Step),
             trace_loop: system_names(world, TraceLoop),
+            join_loop: system_names(world, JoinLoop),
             resources: Vec::new(),
             strays: Vec::new(),
         };
@@ -129,15 +132,20 @@ impl Built {
                 self.tables.len()
             ));
         }
-        let planned = |in_loop: bool| {
+        let planned = |repeated: Option<Repeated>| {
             let systems = plan.systems.iter().map(|system| system.spec);
-            let here = systems.filter(|s| s.is_in_loop() == in_loop && (in_loop || s.phases().has(Phases::STEP)));
+            let here = systems.filter(|s| s.repeated() == repeated);
+            let here = here.filter(|s| repeated.is_some() || s.phases().has(Phases::STEP));
             here.map(|s| s.name()).collect::<Vec<_>>()
         };
-        for (built, in_loop) in [(&self.step, false), (&self.trace_loop, true)] {
+        for (built, repeated) in [
+            (&self.step, None),
+            (&self.trace_loop, Some(Repeated::Trace)),
+            (&self.join_loop, Some(Repeated::Join)),
+        ] {
             let names: Vec<&str> = built.iter().map(|name| short(name)).collect();
-            if names != planned(in_loop) {
-                return Err(format!("systems planned {:?}, built {names:?}", planned(in_loop)));
+            if names != planned(repeated) {
+                return Err(format!("systems planned {:?}, built {names:?}", planned(repeated)));
             }
         }
         Ok(())

@@ -11,8 +11,10 @@ mod findings;
 mod group;
 mod lone_chain;
 mod rendering;
+mod samples;
 mod saved;
 mod saved_tile;
+mod splats;
 mod tile_world;
 
 pub use built::{Built, BuiltColumn, BuiltTable, short};
@@ -25,6 +27,7 @@ pub use group::Start;
 pub use lone_chain::{LoneChain, LoneStart};
 pub use rendering::{Rendering, error_blocks};
 pub use saved::SavedRenderError;
+pub use splats::SplatRender;
 pub use tile_world::TileWorld;
 
 use crate::film::{Film, FilmError, Picture, Tally, block_means_of, block_variances};
@@ -33,12 +36,10 @@ use crate::scene::Scene;
 use crate::stats::error::PictureError;
 use crate::systems::SystemCost;
 use crate::systems::tile::{Counters, FilmRef, SceneRef};
-use deal::deal;
-use rendering::merge_costs;
+use samples::Samples;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, Mutex};
 use std::time::Duration;
-use tile_world::lock;
 
 /// Why a render cannot start.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
@@ -60,6 +61,13 @@ pub enum RenderError {
     #[error("{technique} has no chains")]
     #[diagnostic(help("plan a technique with chains, such as pssmlt"))]
     NoChains {
+        /// The technique.
+        technique: &'static str,
+    },
+    /// The plan has no samples that bring light to many pixels.
+    #[error("{technique} brings light to one pixel at a time")]
+    #[diagnostic(help("plan a technique with both ends, such as bdpt"))]
+    NoSplats {
         /// The technique.
         technique: &'static str,
     },
@@ -102,9 +110,7 @@ pub struct Render {
     /// The film.
     pub film: Arc<Film>,
     seed: u64,
-    worlds: Vec<Mutex<TileWorld>>,
-    pool: rayon::ThreadPool,
-    steps: u64,
+    samples: Samples,
 }
 
 impl Render {
@@ -114,41 +120,23 @@ impl Render {
     /// A film that does not fit, or threads that cannot be started.
     pub fn new(scene: Arc<Scene>, plan: Plan, seed: u64, threads: usize) -> Result<Self, RenderError> {
         let film = Arc::new(Film::new(scene.width, scene.height, scene.lights.max_radiance())?);
-        let tiles = scene.pixel_count().div_ceil(plan.tile.size) as usize;
-        let threads = threads.clamp(1, tiles);
-        let pool = thread_pool(threads)?;
-        let world = |_| {
-            Mutex::new(TileWorld::new(&plan.tile, seed, |world| {
-                world.insert_resource(SceneRef(Arc::clone(&scene)));
-                world.insert_resource(FilmRef(Arc::clone(&film)));
-            }))
-        };
-        let worlds = (0..pool.current_num_threads()).map(world).collect();
+        let samples = Samples::new(&plan.tile, scene.pixel_count(), seed, threads, |world| {
+            world.insert_resource(SceneRef(Arc::clone(&scene)));
+            world.insert_resource(FilmRef(Arc::clone(&film)));
+        })?;
         Ok(Self {
             scene,
             plan,
             film,
             seed,
-            worlds,
-            pool,
-            steps: 0,
+            samples,
         })
     }
 
     /// [`burst`](Rendering::burst) with the tiles dealt in the given order, which must name every tile once; others are
     /// passed over.
     pub fn burst_in_order(&mut self, steps: u64, order: &[usize], done: &(dyn Fn(u64) + Sync)) {
-        let (chains, tile_size) = (self.chains(), self.plan.tile.size);
-        let (tiles, range) = (self.tile_count(), self.steps..self.steps + steps);
-        deal(&self.pool, order, &|tile, thread| {
-            if tile < tiles {
-                let first = tile as u32 * tile_size;
-                let count = tile_size.min(chains - first);
-                lock(&self.worlds[thread]).run(first, count, range.clone());
-                done(u64::from(count) * steps);
-            }
-        });
-        self.steps += steps;
+        self.samples.burst(steps, order, done);
     }
 }
 
@@ -162,7 +150,7 @@ impl Rendering for Render {
     }
 
     fn steps(&self) -> u64 {
-        self.steps
+        self.samples.steps
     }
 
     /// One per pixel.
@@ -171,32 +159,27 @@ impl Rendering for Render {
     }
 
     fn threads(&self) -> usize {
-        self.worlds.len()
+        self.samples.threads()
     }
 
     fn tile_count(&self) -> usize {
-        self.chains().div_ceil(self.plan.tile.size) as usize
+        self.samples.tile_count()
     }
 
     fn burst(&mut self, steps: u64, done: &(dyn Fn(u64) + Sync)) {
-        let order: Vec<usize> = (0..self.tile_count()).collect();
-        self.burst_in_order(steps, &order, done);
+        self.samples.burst_all(steps, done);
     }
 
     fn counters(&self) -> Counters {
-        let sum = |sum: Counters, world: &Mutex<TileWorld>| sum.plus(lock(world).counters());
-        self.worlds.iter().fold(Counters::default(), sum)
+        self.samples.counters()
     }
 
     fn costs(&self) -> Vec<SystemCost> {
-        merge_costs(
-            &self.plan.tile,
-            self.worlds.iter().map(|world| lock(world).profile().systems.clone()),
-        )
+        self.samples.costs()
     }
 
     fn busy_time(&self) -> Duration {
-        self.worlds.iter().map(|world| lock(world).busy()).sum()
+        self.samples.busy_time()
     }
 
     fn picture(&self) -> Picture {
@@ -223,9 +206,7 @@ impl Rendering for Render {
     }
 
     fn for_each_world(&self, look: &mut dyn FnMut(usize, &mut TileWorld)) {
-        for (thread, world) in self.worlds.iter().enumerate() {
-            look(thread, &mut lock(world));
-        }
+        self.samples.for_each_world(look);
     }
 }
 
@@ -244,6 +225,8 @@ pub fn start(
 ) -> Result<Box<dyn Rendering>, RenderError> {
     Ok(if plan.chains.is_some() {
         Box::new(ChainRender::start(scene, plan, seed, threads, interrupt, progress)?)
+    } else if plan.splat_films > 0 {
+        Box::new(SplatRender::new(scene, plan, seed, threads)?)
     } else {
         Box::new(Render::new(scene, plan, seed, threads)?)
     })
@@ -262,6 +245,10 @@ pub fn resume(
 ) -> Result<Box<dyn Rendering>, RenderError> {
     Ok(if plan.chains.is_some() {
         let mut render = ChainRender::unstarted(scene, plan, seed, threads)?;
+        render.restore(saved)?;
+        Box::new(render)
+    } else if plan.splat_films > 0 {
+        let mut render = SplatRender::new(scene, plan, seed, threads)?;
         render.restore(saved)?;
         Box::new(render)
     } else {

@@ -5,7 +5,7 @@
 
 use super::bytes::{CutOff, Hash, Reader, Writer};
 use super::tile_world::lock;
-use super::{ChainRender, Render, Rendering, Start, saved_tile};
+use super::{ChainRender, Render, Rendering, SplatRender, Start, saved_tile};
 use crate::chain::Normalization;
 use crate::film::{GroupFilm, SavedFilmError};
 use crate::plan::Plan;
@@ -63,6 +63,9 @@ fn identity(scene: &Scene, plan: &Plan, seed: u64) -> Vec<(String, String)> {
         ("the film".to_owned(), format!("{} x {}", scene.width, scene.height)),
         ("max_depth".to_owned(), scene.max_depth.to_string()),
     ];
+    if let Some(strategies) = &plan.strategies {
+        identity.push(("the strategies".to_owned(), format!("{strategies:?}")));
+    }
     if let Some(chains) = &plan.chains {
         let counts = chains.counts;
         identity.push(("the number of groups".to_owned(), counts.groups.to_string()));
@@ -162,7 +165,50 @@ impl Render {
             return Err(SavedRenderError::Damaged);
         }
         self.film.restore(film)?;
-        self.steps = steps;
+        self.samples.steps = steps;
+        Ok(())
+    }
+}
+
+impl SplatRender {
+    /// The render so far, to go on from with [`restore`](Self::restore).
+    #[must_use]
+    pub fn save(&self) -> Vec<u8> {
+        let mut out = begin();
+        save_identity(&mut out, &identity(&self.scene, &self.plan, self.seed));
+        out.number(self.steps());
+        for film in self.films.iter() {
+            let mut bytes = Vec::new();
+            lock(film).save(&mut bytes);
+            out.list(&bytes);
+        }
+        finish(out)
+    }
+
+    /// Takes a saved render up: this render, which has taken no step yet, then stands where that one stopped.
+    ///
+    /// # Errors
+    /// Bytes that are no saved render, or one of another scene, technique, size or seed.
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), SavedRenderError> {
+        let mut saved = open(bytes)?;
+        check_identity(&mut saved, &identity(&self.scene, &self.plan, self.seed))?;
+        let steps = saved.number()?;
+        let size = (self.scene.width, self.scene.height);
+        let mut films = Vec::with_capacity(self.films.len());
+        for _ in 0..self.films.len() {
+            let film = GroupFilm::load(saved.list()?)?;
+            if (film.width(), film.height()) != size {
+                return Err(SavedRenderError::Damaged);
+            }
+            films.push(film);
+        }
+        if !saved.bytes.is_empty() || steps > LAST_STEP {
+            return Err(SavedRenderError::Damaged);
+        }
+        for (film, restored) in self.films.iter().zip(films) {
+            *lock(film) = restored;
+        }
+        self.samples.steps = steps;
         Ok(())
     }
 }

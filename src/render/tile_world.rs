@@ -35,7 +35,9 @@ impl TileWorld {
             seed,
             first_chain: 0,
             chains: 0,
-            capacity: plan.size,
+            capacity: plan.capacity(),
+            lights_from: plan.lights_from(),
+            first_coordinate: plan.first_coordinate(),
             step: 0,
         };
         world.insert_resource(place);

@@ -60,6 +60,17 @@ impl Discrete {
         (index < self.cumulative.len()).then_some(index)
     }
 
+    /// [`sample`](Self::sample), and what is left of `u`: how far along the entry's share it lies, a uniform number in
+    /// [0, 1) of its own.
+    #[inline]
+    #[must_use]
+    pub fn sample_with_rest(&self, u: f64) -> Option<(usize, f64)> {
+        let index = self.sample(u)?;
+        let start = if index > 0 { self.cumulative[index - 1] } else { 0.0 };
+        let rest = (u - start) / (self.cumulative[index] - start);
+        Some((index, rest.clamp(0.0, 1.0_f64.next_down())))
+    }
+
     /// The probability of entry `index`.
     #[inline]
     #[must_use]
@@ -81,6 +92,17 @@ mod tests {
         assert_eq!(d.sample(1.0 - f64::EPSILON), Some(3));
         assert_eq!(d.probability(3), 0.75);
         assert_eq!(d.probability(4), 0.0);
+    }
+
+    #[test]
+    fn what_is_left_of_the_number_spans_the_unit_interval_in_every_entry() {
+        let d = Discrete::new([1.0, 0.0, 3.0].into_iter());
+        assert_eq!(d.sample_with_rest(0.125), Some((0, 0.5)));
+        assert_eq!(d.sample_with_rest(0.25), Some((2, 0.0)));
+        assert_eq!(d.sample_with_rest(0.625), Some((2, 0.5)));
+        let last = d.sample_with_rest(1.0_f64.next_down());
+        assert!(last.is_some_and(|(index, rest)| index == 2 && rest > 0.999_999 && rest < 1.0));
+        assert_eq!(Discrete::default().sample_with_rest(0.5), None);
     }
 
     #[test]

@@ -2,13 +2,14 @@
 
 use super::flatten::{Emission, Flattened, Geometry as Shape};
 use super::{Mesh, SceneDescription};
-use crate::camera::Perspective;
-use crate::color::Rgb;
+use crate::camera::Camera;
 use crate::film::{Filter, FilterError};
-use crate::geometry::{Geometry, Instance, InstanceShape, NOT_EMITTING};
+use crate::geometry::{BoundingSphere, Geometry, Instance, InstanceShape, NOT_EMITTING};
 use crate::light::{Emitter, EmitterShape, LightTable};
 use crate::material::MaterialTable;
+use glam::Mat3;
 use std::f32::consts::PI;
+use std::sync::Arc;
 
 /// A scene as rendering sees it: tables only, never written to.
 #[derive(Clone, Debug)]
@@ -20,7 +21,7 @@ pub struct Scene {
     /// Everything that emits.
     pub lights: LightTable,
     /// The camera.
-    pub camera: Perspective,
+    pub camera: Camera,
     /// Pixels from left to right.
     pub width: u32,
     /// Pixels from top to bottom.
@@ -29,7 +30,7 @@ pub struct Scene {
     pub filter: Filter,
     /// The most edges of a path: 1 shows emitters seen directly, 2 adds direct light.
     pub max_depth: u32,
-    /// Names of the shapes that emit.
+    /// Names of the shapes that emit, then of the lights that are no shapes.
     pub light_names: Vec<String>,
     /// Names of all instances, by number.
     pub instance_names: Vec<String>,
@@ -60,34 +61,34 @@ impl Scene {
         let filter = Filter::new(&description.film.filter)?;
         let mut tables = Tables::new(flattened);
         for instance in &flattened.instances {
-            match &instance.geometry {
-                Shape::Mesh(mesh) => tables.add_mesh(mesh, &instance.emission),
-                Shape::Sphere {
-                    center,
-                    radius,
-                    material,
-                } => {
-                    tables.add_sphere(*center, *radius, *material, instance.emission.of(0));
-                }
-            }
+            tables.add(&instance.geometry, &instance.emission);
         }
         tables.geometry.build_tree();
         let lit = flattened
             .instances
             .iter()
             .filter(|instance| !instance.emission.is_none());
+        let sphere = bounding_sphere(&tables.geometry);
+        let others = flattened.lights.iter().map(|(_, light)| light);
+        let named = flattened.lights.iter().map(|(name, _)| name);
         Ok(Self {
             geometry: tables.geometry,
             materials: tables.materials,
-            lights: LightTable::new(tables.emitters),
-            camera: Perspective::new(&description.camera, width, height),
+            lights: LightTable::with_lights(tables.emitters, others.cloned().collect(), sphere),
+            camera: Camera::new(&description.camera, width, height),
             width,
             height,
             filter,
             max_depth: overrides.max_depth.unwrap_or(description.settings.max_depth),
-            light_names: lit.map(|instance| instance.name.clone()).collect(),
+            light_names: lit.map(|instance| &instance.name).chain(named).cloned().collect(),
             instance_names: flattened.instances.iter().map(|i| i.name.clone()).collect(),
         })
+    }
+
+    /// A sphere that no shape reaches out of.
+    #[must_use]
+    pub fn bounding_sphere(&self) -> BoundingSphere {
+        bounding_sphere(&self.geometry)
     }
 
     /// Number of pixels.
@@ -95,6 +96,13 @@ impl Scene {
     pub fn pixel_count(&self) -> u32 {
         self.width * self.height
     }
+}
+
+fn bounding_sphere(geometry: &Geometry) -> BoundingSphere {
+    let bounds = geometry.bounds();
+    bounds.map_or_else(BoundingSphere::default, |(least, most)| {
+        BoundingSphere::around(least, most)
+    })
 }
 
 /// Tables while they grow.
@@ -110,12 +118,8 @@ impl Tables {
     fn new(flattened: &Flattened) -> Self {
         let mut used = vec![false; flattened.materials.len()];
         for instance in &flattened.instances {
-            match &instance.geometry {
-                Shape::Mesh(mesh) => mesh
-                    .materials
-                    .iter()
-                    .for_each(|&material| used[material as usize] = true),
-                Shape::Sphere { material, .. } => used[*material as usize] = true,
+            for &material in instance.geometry.materials() {
+                used[material as usize] = true;
             }
         }
         let named = |name: &str| {
@@ -123,6 +127,9 @@ impl Tables {
             found.map(|(_, description)| description)
         };
         let mut materials = MaterialTable::default();
+        for (name, texture) in &flattened.textures {
+            materials.textures.push(name.clone(), Arc::clone(texture));
+        }
         let numbers = flattened
             .materials
             .iter()
@@ -137,18 +144,76 @@ impl Tables {
         }
     }
 
+    fn add(&mut self, shape: &Shape, emission: &Emission) {
+        let radiance = emission.of(0);
+        match *shape {
+            Shape::Mesh(ref mesh) => self.add_mesh(mesh, emission),
+            Shape::Sphere {
+                center,
+                radius,
+                frame,
+                material,
+            } => {
+                let emitter = Emitter {
+                    shape: EmitterShape::Sphere { center, radius },
+                    radiance,
+                    area: 4.0 * PI * radius * radius,
+                };
+                self.add_round(InstanceShape::Sphere { center, radius }, frame, material, emitter);
+            }
+            Shape::Disk {
+                center,
+                radius,
+                frame,
+                material,
+            } => {
+                let normal = frame.z_axis;
+                let emitter = Emitter {
+                    shape: EmitterShape::Disk { center, normal, radius },
+                    radiance,
+                    area: PI * radius * radius,
+                };
+                self.add_round(InstanceShape::Disk { center, normal, radius }, frame, material, emitter);
+            }
+            Shape::Cylinder {
+                from,
+                to,
+                radius,
+                frame,
+                material,
+            } => {
+                let length = to.as_dvec3().distance(from.as_dvec3()) as f32;
+                let emitter = Emitter {
+                    shape: EmitterShape::Cylinder { from, to, radius },
+                    radiance,
+                    area: 2.0 * PI * radius * length,
+                };
+                self.add_round(InstanceShape::Cylinder { from, to, radius }, frame, material, emitter);
+            }
+        }
+    }
+
     fn add_mesh(&mut self, mesh: &Mesh, emission: &Emission) {
+        let textured = self.needs_frames();
         let geometry = &mut self.geometry;
         let first_primitive = geometry.materials.len() as u32;
+        let has_uvs = textured && !mesh.uvs.is_empty();
         geometry.instances.push(Instance {
             shape: InstanceShape::Mesh {
                 first_triangle: geometry.triangles.len() as u32,
                 triangle_count: mesh.triangles.len() as u32,
                 first_vertex: geometry.positions.len() as u32,
                 first_normal: (!mesh.normals.is_empty()).then_some(geometry.normals.len() as u32),
+                first_uv: has_uvs.then_some(geometry.uvs.len() as u32),
             },
             first_primitive,
         });
+        if textured {
+            geometry.frames.push(Mat3::IDENTITY);
+        }
+        if has_uvs {
+            geometry.uvs.extend_from_slice(&mesh.uvs);
+        }
         geometry.positions.extend_from_slice(&mesh.positions);
         geometry.normals.extend_from_slice(&mesh.normals);
         geometry.triangles.extend_from_slice(&mesh.triangles);
@@ -162,21 +227,20 @@ impl Tables {
         }
     }
 
-    fn add_sphere(&mut self, center: glam::Vec3, radius: f32, material: u32, radiance: Rgb) {
+    /// A shape that is one primitive.
+    fn add_round(&mut self, shape: InstanceShape, frame: Mat3, material: u32, emitter: Emitter) {
         let first_primitive = self.geometry.materials.len() as u32;
-        self.geometry.instances.push(Instance {
-            shape: InstanceShape::Sphere { center, radius },
-            first_primitive,
-        });
-        let shape = EmitterShape::Sphere { center, radius };
-        self.add_primitive(
-            material,
-            Emitter {
-                shape,
-                radiance,
-                area: 4.0 * PI * radius * radius,
-            },
-        );
+        self.geometry.instances.push(Instance { shape, first_primitive });
+        if self.needs_frames() {
+            self.geometry.frames.push(frame);
+        }
+        self.add_primitive(material, emitter);
+    }
+
+    /// Whether some material asks where on its texture a point is, or which way that runs.
+    fn needs_frames(&self) -> bool {
+        let needs = self.materials.needs();
+        needs.textures || needs.tangents
     }
 
     fn add_primitive(&mut self, material: u32, emitter: Emitter) {

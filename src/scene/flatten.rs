@@ -3,15 +3,22 @@
 use super::at::At;
 use super::description::{MaterialDescription, SceneDescription, ShapeDescription, ShapeKind};
 use super::error::{SceneError, SceneWarning};
+use super::lights;
 use super::mesh::Mesh;
 use super::read::SceneSource;
-use super::shapes::{cuboid, obj, quad, sphere};
+use super::shapes::height_field::{Ground, Heights};
+use super::shapes::torus::Torus;
+use super::shapes::{cuboid, cylinder, disk, height_field, obj, quad, sphere, torus};
+use super::textures;
 use super::transform::compose;
 use super::validate::validate;
 use crate::color::Rgb;
-use glam::Vec3;
+use crate::light::Light;
+use crate::texture::Texture;
+use glam::{Mat3, Vec3};
+use std::sync::Arc;
 
-/// The most triangles and spheres of a scene.
+/// The most primitives of a scene.
 pub const MAX_PRIMITIVES: u64 = 1 << 31;
 
 /// A scene's shapes in world space, and the materials that they refer to.
@@ -22,6 +29,10 @@ pub struct Flattened {
     /// Name and description of every material: those of the scene file in the order of their names, then those that
     /// meshes bring along, in the order of their first use, named `file:material`.
     pub materials: Vec<(String, MaterialDescription)>,
+    /// Name and kind of every light of the `lights` block, in its order; the names are `lights[2] (Sun)`.
+    pub lights: Vec<(String, Light)>,
+    /// Name and texture of every texture, in the order of their names.
+    pub textures: Vec<(String, Arc<Texture>)>,
     /// What renders, but probably not as meant.
     pub warnings: Vec<SceneWarning>,
 }
@@ -48,9 +59,57 @@ pub enum Geometry {
         center: Vec3,
         /// Its radius, positive.
         radius: f32,
+        /// The axes of its own space, of unit length: its texture turns with them.
+        frame: Mat3,
         /// An index into [`Flattened::materials`].
         material: u32,
     },
+    /// A disk.
+    Disk {
+        /// Its centre.
+        center: Vec3,
+        /// Its radius, positive.
+        radius: f32,
+        /// Unit vectors to the right and up over its texture, and its normal. A mirrored disk's are left-handed.
+        frame: Mat3,
+        /// An index into [`Flattened::materials`].
+        material: u32,
+    },
+    /// A tube without ends; its geometric normal points outward.
+    Cylinder {
+        /// The centre of one end.
+        from: Vec3,
+        /// The centre of the other end; another point.
+        to: Vec3,
+        /// Its radius, positive.
+        radius: f32,
+        /// Unit vectors: its texture goes around the second, from the seam at the third, turned around.
+        frame: Mat3,
+        /// An index into [`Flattened::materials`].
+        material: u32,
+    },
+}
+
+impl Geometry {
+    /// Number of triangles; 1 for shapes that are no mesh.
+    #[must_use]
+    pub fn primitive_count(&self) -> usize {
+        match self {
+            Self::Mesh(mesh) => mesh.triangles.len(),
+            Self::Sphere { .. } | Self::Disk { .. } | Self::Cylinder { .. } => 1,
+        }
+    }
+
+    /// The material of every primitive.
+    #[must_use]
+    pub fn materials(&self) -> &[u32] {
+        match self {
+            Self::Mesh(mesh) => &mesh.materials,
+            Self::Sphere { material, .. } | Self::Disk { material, .. } | Self::Cylinder { material, .. } => {
+                std::slice::from_ref(material)
+            }
+        }
+    }
 }
 
 /// Radiance in W sr⁻¹ m⁻², emitted on the side of the geometric normal alone, equally in all directions.
@@ -85,7 +144,7 @@ impl Emission {
         }
     }
 
-    /// The radiance that a triangle emits; any index will do for a sphere.
+    /// The radiance that a triangle emits; any index will do for a shape that is no mesh.
     #[must_use]
     pub fn of(&self, triangle: usize) -> Rgb {
         match self {
@@ -110,6 +169,11 @@ impl Emission {
 pub fn flatten(source: &SceneSource) -> Result<Flattened, SceneError> {
     let mut warnings = validate(source)?;
     let scene = &source.description;
+    let mut textures = Vec::with_capacity(scene.textures.len());
+    for (name, texture) in &scene.textures {
+        let at = At::root(source).key("textures").key(name);
+        textures.push((name.clone(), Arc::new(textures::load(&at, texture)?)));
+    }
     let mut materials = Materials::new(scene);
     let shapes = At::root(source).key("shapes");
     let mut instances = Vec::with_capacity(scene.shapes.len());
@@ -117,23 +181,30 @@ pub fn flatten(source: &SceneSource) -> Result<Flattened, SceneError> {
     for (index, shape) in scene.shapes.iter().enumerate() {
         let at = shapes.index(index);
         let instance = place(&at, index, shape, &mut materials, &mut warnings)?;
-        primitives += match &instance.geometry {
-            Geometry::Mesh(mesh) => mesh.triangles.len() as u64,
-            Geometry::Sphere { .. } => 1,
-        };
+        primitives += instance.geometry.primitive_count() as u64;
         if primitives > MAX_PRIMITIVES {
             let message = format!("with this shape the scene has more than {MAX_PRIMITIVES} primitives");
             return Err(at.error(message, "use coarser meshes"));
         }
         instances.push(instance);
     }
-    if instances.iter().all(|instance| instance.emission.is_none()) {
+    let placed = scene.lights.iter().enumerate().map(|(index, light)| {
+        let at = At::root(source).key("lights").index(index);
+        Ok((
+            format!("lights[{index}] ({})", light.name()),
+            lights::place(&at, light)?,
+        ))
+    });
+    let lights = placed.collect::<Result<Vec<_>, SceneError>>()?;
+    if lights.is_empty() && instances.iter().all(|instance| instance.emission.is_none()) {
         let message = "nothing in this scene emits light: the picture will be black";
         warnings.push(shapes.warning(message, "give a shape an `emission: (1, 1, 1)`"));
     }
     Ok(Flattened {
         instances,
         materials: materials.list,
+        lights,
+        textures,
         warnings,
     })
 }
@@ -156,6 +227,45 @@ fn place(
         }
         ShapeKind::Box { min, max } => Geometry::Mesh(cuboid::mesh(at, *min, *max, &map, known)?),
         ShapeKind::Sphere { center, radius } => sphere::geometry(at, *center, *radius, &map, known)?,
+        ShapeKind::Disk { center, normal, radius } => disk::geometry(at, *center, *normal, *radius, &map, known)?,
+        ShapeKind::Cylinder { from, to, radius } => cylinder::geometry(at, [*from, *to], *radius, &map, known)?,
+        ShapeKind::Torus {
+            center,
+            axis,
+            major_radius,
+            minor_radius,
+            segments,
+        } => {
+            let torus = Torus {
+                center: *center,
+                axis: *axis,
+                major_radius: *major_radius,
+                minor_radius: *minor_radius,
+                segments: *segments,
+            };
+            Geometry::Mesh(torus::mesh(at, torus, &map, known)?)
+        }
+        ShapeKind::HeightField {
+            file,
+            heights,
+            corner,
+            edge_u,
+            edge_v,
+            height,
+        } => {
+            let ground = Ground {
+                corner: *corner,
+                edge_u: *edge_u,
+                edge_v: *edge_v,
+                height: *height,
+            };
+            // Validation has seen to it that there is one of the two.
+            let heights = match file {
+                Some(file) => Heights::read(&at.key("shape").variant("HeightField").key("file"), file)?,
+                None => Heights::listed(heights.as_deref().unwrap_or_default()),
+            };
+            Geometry::Mesh(height_field::mesh(at, &heights, &ground, &map, known)?)
+        }
         ShapeKind::Obj { file, smooth } => {
             let at = at.key("shape").variant("Obj").key("file");
             let loaded = obj::load(&at, file, *smooth, &map, material, materials)?;

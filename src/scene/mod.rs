@@ -19,6 +19,10 @@
 //!         "gold": Conductor(eta: (0.14, 0.38, 1.44), k: (3.98, 2.39, 1.6)),
 //!         "glass": Dielectric(interior_ior: 1.5),
 //!     },
+//!     lights: [                                       // optional: lights that are no shapes
+//!         Sky(sun_direction: (1, 2, 1), turbidity: 3),
+//!         Sun(direction: (1, 2, 1), turbidity: 3),
+//!     ],
 //!     shapes: [
 //!         (name: "floor", shape: Quad(corner: (-1, 0, 1), edge_u: (2, 0, 0), edge_v: (0, 0, -2)), material: "white"),
 //!         (shape: Box(min: (0, 0, 0), max: (1, 1, 1)), material: "gold",
@@ -46,10 +50,12 @@
 //! | block | variants and fields | documented at |
 //! |---|---|---|
 //! | `settings` | `max_depth` (16), `technique` (none) | [`SettingsDescription`] |
-//! | `camera` | `Perspective(origin, target, up (0, 1, 0), fov, fov_axis (Vertical))` | [`CameraDescription`] |
+//! | `camera` | `Perspective(origin, target, up (0, 1, 0), fov, fov_axis (Vertical))`, `ThinLens(`the same, `aperture_radius, focus_distance (`to `target))`, `Orthographic(origin, target, up (0, 1, 0), height)` | [`CameraDescription`] |
 //! | `film` | `width`, `height`, `filter` (`Box(radius: 0.5)`) | [`FilmDescription`] |
 //! | filters | `Box(radius 0.5)`, `Tent(radius 1)`, `Gaussian(radius 1.5, sigma 0.5)` | [`FilterDescription`] |
+//! | `textures` | `Checkerboard(even (0.4), odd (0.2), scale (1, 1))`, `Bitmap(file, encoding (Auto), filter (Bilinear), wrap (Repeat), scale (1, 1))`, by name | [`TextureDescription`] |
 //! | `materials` | `Diffuse`, `Conductor`, `RoughConductor`, `Dielectric`, `RoughDielectric`, `Plastic`, `TwoSided`, by name | [`MaterialDescription`] |
+//! | `lights` | a list of `Point`, `Spot`, `Directional`, `Environment`, `Sun`, `Sky` | [`LightDescription`] |
 //! | `shapes` | a list of `name` (none), `shape`, `material`, `emission` (none), `transform` (none) | [`ShapeDescription`] |
 //! | shapes | `Quad`, `Box`, `Sphere`, `Obj` | [`ShapeKind`] |
 //! | transforms | `Translate((x, y, z))`, `Scale((x, y, z))`, `Rotate(axis, degrees)`, `Matrix((row, row, row, row))` | [`TransformStep`] |
@@ -86,9 +92,11 @@ mod at;
 mod compile;
 mod complaint;
 pub mod description;
+mod environment_picture;
 pub mod error;
 pub mod flatten;
 mod lex;
+mod lights;
 mod locate;
 pub mod mesh;
 pub mod read;
@@ -96,13 +104,15 @@ mod shapes;
 mod syntax;
 #[cfg(test)]
 mod testing;
+mod textures;
 pub mod transform;
 pub mod validate;
 
 pub use compile::{Scene, SceneOverrides};
 pub use description::{
-    CameraDescription, ColorDescription, FilmDescription, FilterDescription, FovAxis, MaterialDescription,
-    SceneDescription, SettingsDescription, ShapeDescription, ShapeKind, TransformStep,
+    CameraDescription, ColorDescription, FilmDescription, FilterDescription, FovAxis, LightDescription,
+    MaterialDescription, SceneDescription, SettingsDescription, ShapeDescription, ShapeKind, TextureDescription,
+    TextureEncoding, TextureFilter, TextureWrap, TransformStep,
 };
 pub use error::{SceneError, SceneWarning, nearest_name};
 pub use flatten::{Emission, Flattened, Geometry, Instance, flatten};
@@ -166,7 +176,9 @@ mod tests {
             }
         );
         assert_eq!(scene.film.filter, FilterDescription::Box { radius: 0.5 });
-        let CameraDescription::Perspective { up, fov_axis, .. } = scene.camera;
+        let CameraDescription::Perspective { up, fov_axis, .. } = scene.camera else {
+            panic!("{:?}", scene.camera)
+        };
         assert_eq!((up, fov_axis), ([0.0, 1.0, 0.0], FovAxis::Vertical));
     }
 

@@ -28,7 +28,7 @@ pub(super) fn flatten_one(shape: &str, transform: &str) -> Instance {
 pub(super) fn mesh_of(instance: &Instance) -> Mesh {
     match &instance.geometry {
         Geometry::Mesh(mesh) => mesh.clone(),
-        Geometry::Sphere { .. } => panic!("a sphere"),
+        other => panic!("{other:?}"),
     }
 }
 

@@ -2,9 +2,21 @@
 //!
 //! A parameter of a material is a [`Color`]: one for the whole surface, or the number of a texture that is looked up at the
 //! texture coordinates of the surface point ([`Shading`]).
+//!
+//! **Coordinates.** (0, 0) is the lower left corner of a picture, u grows to the right and v **up**: v = 0 is the lower edge
+//! of the bottom row, v = 1 the upper edge of the top row.
 
+mod bitmap;
+mod checkerboard;
+mod decode;
+mod picture;
+mod srgb;
 mod table;
 
+pub use bitmap::Bitmap;
+pub use checkerboard::Checkerboard;
+pub use decode::{MAX_TEXELS, decode};
+pub use picture::{Picture, Texel};
 pub use table::TextureTable;
 
 use crate::color::Rgb;
@@ -28,6 +40,15 @@ pub struct Shading<'a> {
     pub textures: &'a TextureTable,
 }
 
+/// A texture of any kind.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Texture {
+    /// Two colours in turn.
+    Checkerboard(Checkerboard),
+    /// A picture.
+    Bitmap(Bitmap),
+}
+
 impl Color {
     /// The colour at a surface point.
     #[inline]
@@ -49,5 +70,17 @@ impl Color {
 impl From<Rgb> for Color {
     fn from(color: Rgb) -> Self {
         Self::Constant(color)
+    }
+}
+
+impl Texture {
+    /// The colour at texture coordinates `uv`, which must be finite.
+    #[inline]
+    #[must_use]
+    pub fn color(&self, uv: Vec2) -> Rgb {
+        match self {
+            Self::Checkerboard(texture) => texture.color(uv),
+            Self::Bitmap(texture) => texture.color(uv),
+        }
     }
 }

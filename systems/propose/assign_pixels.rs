@@ -20,8 +20,12 @@ pub fn assign_pixels(
     for chain in 0..place.chains as usize {
         let global = place.first_chain + chain as u32;
         keys.put(chain, StreamKey::new(place.seed, global, place.step).bits());
-        pixels.put(chain, global);
-        contributions.put(chain, Rgb::BLACK);
+        if !pixels.is_empty() {
+            pixels.put(chain, global);
+        }
+        if !contributions.is_empty() {
+            contributions.put(chain, Rgb::BLACK);
+        }
     }
     *queues = Queues::default();
     counters.steps += 1;

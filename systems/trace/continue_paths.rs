@@ -6,7 +6,7 @@ use crate::path::*;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut};
 
-/// Plays Russian roulette for every scattered chain, and lists the survivors as active.
+/// Plays Russian roulette for every scattered path, and lists the survivors as active.
 pub fn continue_paths(
     place: Res<TilePlace>,
     mut queues: ResMut<Queues>,
@@ -23,20 +23,20 @@ pub fn continue_paths(
     let (throughputs, active, ratios) = (throughputs.rows(), active.rows(), ratios.rows());
     let mut survivors = 0;
     for entry in 0..queues.scattered {
-        let chain = scattered.at(entry) as usize;
-        let depth = lengths.at(chain);
-        let throughput = throughputs.at(chain);
-        let scale = if scales.is_empty() { 1.0 } else { scales.at(chain) };
+        let path = scattered.at(entry) as usize;
+        let depth = lengths.at(path);
+        let throughput = throughputs.at(path);
+        let scale = if scales.is_empty() { 1.0 } else { scales.at(path) };
         let survival = roulette::survival(depth, throughput, scale);
         if survival < 1.0 {
-            if draws.roulette(chain, depth) >= survival {
+            if draws.roulette(path, depth) >= survival {
                 continue;
             }
-            let vertex = place.vertex(chain, depth);
+            let vertex = place.vertex(path, depth);
             ratios.put(vertex, ratios.at(vertex) / survival);
-            throughputs.put(chain, throughput / survival);
+            throughputs.put(path, throughput / survival);
         }
-        active.put(survivors, chain as u32);
+        active.put(survivors, path as u32);
         survivors += 1;
     }
     queues.active = survivors;

@@ -3,6 +3,7 @@
 
 use super::super::evaluate::Brightest;
 use super::super::tile::{Counters, SceneRef, TilePlace, connectable};
+use super::extend_paths::met_at_infinity;
 use crate::chain::StateClass;
 use crate::color::Rgb;
 use crate::geometry::{
@@ -10,6 +11,7 @@ use crate::geometry::{
     RayOrigin, SegmentColumns, SegmentTarget, SegmentTransmittance, SurfacePoint, TexturePoint, offset_origin,
 };
 use crate::material::{ScatterDraw, Transport};
+use crate::path::mis::Heuristic;
 use crate::path::*;
 use crate::scene::Scene;
 use crate::table::{Read, Rows, Write};
@@ -83,14 +85,26 @@ impl<'a> Tracer<'a> {
     /// it.
     pub(in super::super) fn trace(&mut self, film: Vec2, draws: &mut impl PathDraws) -> (Rgb, StateClass) {
         let scene = self.scene;
-        let mut direction = scene.camera.direction(film);
-        let mut position = scene.camera.origin();
+        let lens = if scene.camera.has_aperture() {
+            draws.lens()
+        } else {
+            LENS_CENTER
+        };
+        let ray = scene.camera.ray(film, lens);
+        let (mut position, mut direction) = (ray.origin, ray.direction);
         let mut origin = position;
         let (mut radiance, mut throughput, mut judged, mut scale) = (Rgb::BLACK, Rgb::ONE, Rgb::ONE, 1.0);
         let (mut density, mut kind) = (0.0, VERTEX_LENS);
         let mut brightest = Brightest::default();
         for depth in 1..=scene.max_depth {
             let Some((hit, point)) = self.closest(origin, direction) else {
+                if scene.lights.has_infinite() {
+                    self.counters.vertices += 1;
+                    let before = connectable(kind).then_some((position, density));
+                    let met = throughput * met_at_infinity(scene, direction, before);
+                    radiance += met;
+                    brightest.see(met, Rgb::BLACK, depth, false);
+                }
                 break;
             };
             self.counters.vertices += 1;
@@ -123,7 +137,7 @@ impl<'a> Tracer<'a> {
                 connected = throughput * (connection.value * passed);
                 radiance += connected;
             }
-            let outcome = scatterer.scatter(|wi| {
+            let outcome = scatterer.scatter(Transport::Radiance, |wi| {
                 let draw = ScatterDraw {
                     direction: draws.scatter(depth),
                     lobe: if model.chooses_lobes() { draws.lobe(depth) } else { 0.0 },
@@ -169,7 +183,7 @@ impl<'a> Tracer<'a> {
             return emitted;
         }
         let sampled = lights.density(point.light, previous, point.position, point.geometric_normal);
-        emitted * mis::power_heuristic(density, sampled)
+        emitted * Heuristic::Power.share(density, sampled)
     }
 
     fn closest(&mut self, origin: Vec3, direction: Vec3) -> Option<(Hit, SurfacePoint)> {

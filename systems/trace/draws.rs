@@ -5,7 +5,7 @@ use super::super::tile::TilePlace;
 use crate::material::ScatterDraw;
 use crate::path::{
     ChainKey, ChainTable, CoordinateColumns, CoordinateColumnsMut, KeyedDraws, LightDraw, PathDraws, PrimaryChoice,
-    PrimaryLight, PrimaryLobe, PrimaryRoulette, PrimaryScatter, PrimaryTable, ProposedPrimaryTable,
+    PrimaryLight, PrimaryLobe, PrimaryRoulette, PrimaryScatter, PrimaryTable, ProposedPrimaryTable, VertexCoordinates,
 };
 use crate::table::{Read, Rows, Table, Write};
 use bevy_ecs::system::SystemParam;
@@ -90,29 +90,29 @@ impl Draws<'_, '_> {
 }
 
 impl DrawColumns<'_> {
-    /// The numbers that connect the vertex at `depth` of `chain` to a light.
+    /// The numbers that connect the vertex at `depth` of subpath `path` to a light.
     #[inline]
     #[must_use]
-    pub fn light(&self, chain: usize, depth: u32) -> LightDraw {
+    pub fn light(&self, path: usize, depth: u32) -> LightDraw {
         if self.coordinates.scatter.is_empty() {
-            self.keyed(chain).light(depth)
+            self.keyed(path).light(self.place.stream_depth(path, depth))
         } else {
-            self.coordinates.at(self.place.vertex(chain, depth - 1)).light_draw()
+            self.coordinates_at(path, depth).light_draw()
         }
     }
 
-    /// The numbers that scatter at the vertex at `depth` of `chain`, with one to choose a `lobe` if that is asked for.
+    /// The numbers that scatter at the vertex at `depth` of subpath `path`, with one to choose a `lobe` if that is asked for.
     #[inline]
     #[must_use]
-    pub fn scatter(&self, chain: usize, depth: u32, lobe: bool) -> ScatterDraw {
+    pub fn scatter(&self, path: usize, depth: u32, lobe: bool) -> ScatterDraw {
         if self.coordinates.scatter.is_empty() {
-            let mut keyed = self.keyed(chain);
+            let (mut keyed, depth) = (self.keyed(path), self.place.stream_depth(path, depth));
             ScatterDraw {
                 direction: keyed.scatter(depth),
                 lobe: if lobe { keyed.lobe(depth) } else { 0.0 },
             }
         } else {
-            let coordinates = self.coordinates.at(self.place.vertex(chain, depth - 1));
+            let coordinates = self.coordinates_at(path, depth);
             ScatterDraw {
                 direction: coordinates.scatter_draw(),
                 lobe: if lobe { coordinates.lobe_draw() } else { 0.0 },
@@ -120,19 +120,59 @@ impl DrawColumns<'_> {
         }
     }
 
-    /// The number that plays roulette after the vertex at `depth` of `chain`.
+    /// The number that plays roulette after the vertex at `depth` of subpath `path`.
     #[inline]
     #[must_use]
-    pub fn roulette(&self, chain: usize, depth: u32) -> f32 {
+    pub fn roulette(&self, path: usize, depth: u32) -> f32 {
         if self.coordinates.scatter.is_empty() {
-            self.keyed(chain).roulette(depth)
+            self.keyed(path).roulette(self.place.stream_depth(path, depth))
         } else {
-            self.coordinates.at(self.place.vertex(chain, depth - 1)).roulette_draw()
+            self.coordinates_at(path, depth).roulette_draw()
+        }
+    }
+
+    /// The numbers that choose the point of the lens where the camera subpath of `chain` starts.
+    #[inline]
+    #[must_use]
+    pub fn lens(&self, chain: usize) -> [f32; 2] {
+        if self.coordinates.scatter.is_empty() {
+            self.keyed(chain).lens()
+        } else {
+            self.coordinates_at(chain, 0).scatter_draw()
+        }
+    }
+
+    /// The numbers that choose where and how the light subpath `path` starts: a light and a point on it, and a direction.
+    #[inline]
+    #[must_use]
+    pub fn emission(&self, path: usize) -> (LightDraw, [f32; 2]) {
+        if self.coordinates.scatter.is_empty() {
+            self.keyed(path).emission()
+        } else {
+            let coordinates = self.coordinates_at(path, 0);
+            (coordinates.light_draw(), coordinates.scatter_draw())
+        }
+    }
+
+    /// The number that chooses the pixel which light from the vertex at `depth` of the light subpath `path` counts for.
+    #[inline]
+    #[must_use]
+    pub fn splat(&self, path: usize, depth: u32) -> f32 {
+        if self.coordinates.scatter.is_empty() {
+            self.keyed(path).splat(depth)
+        } else {
+            self.coordinates_at(path, depth).splat_draw()
         }
     }
 
     #[inline]
-    fn keyed(&self, chain: usize) -> KeyedDraws {
+    fn coordinates_at(&self, path: usize, depth: u32) -> VertexCoordinates {
+        self.coordinates.at(self.place.coordinate(path, depth))
+    }
+
+    #[inline]
+    fn keyed(&self, path: usize) -> KeyedDraws {
+        let chain = self.place.chain(path);
         KeyedDraws(self.place.key(chain, self.keys.at(chain)))
     }
 }

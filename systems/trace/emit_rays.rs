@@ -9,7 +9,7 @@ use crate::path::{
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut};
 
-/// Writes the next ray of every active chain: from its last vertex along its direction. Empties the active list.
+/// Writes the next ray of every active path: from its last vertex along its direction. Empties the active list.
 pub fn emit_rays(
     place: Res<TilePlace>,
     mut queues: ResMut<Queues>,
@@ -27,10 +27,10 @@ pub fn emit_rays(
     let (positions, normals, offsets) = (positions.rows(), normals.rows(), offsets.rows());
     let (ray_chains, origins, ray_directions) = (ray_chains.rows(), origins.rows(), ray_directions.rows());
     for ray in 0..queues.active {
-        let chain = active.at(ray) as usize;
-        let direction = directions.at(chain);
-        let vertex = place.vertex(chain, lengths.at(chain));
-        ray_chains.put(ray, chain as u32);
+        let path = active.at(ray) as usize;
+        let direction = directions.at(path);
+        let vertex = place.vertex(path, lengths.at(path));
+        ray_chains.put(ray, path as u32);
         ray_directions.put(ray, direction);
         origins.put(
             ray,

@@ -1,16 +1,20 @@
 //! Vertices where rays ended.
 
 use super::super::tile::{Counters, Queues, SceneRef, TilePlace, connectable};
+use super::ends::{Arrival, Ends};
 use crate::color::Rgb;
 use crate::geometry::{Hit, HitInstance, HitPrimitive, HitUv, NO_HIT, NOT_EMITTING};
+use crate::path::mis::Heuristic;
 use crate::path::*;
+use crate::scene::Scene;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut, SystemParam};
+use glam::Vec3;
 
 /// What the system reads.
 #[derive(SystemParam)]
 pub struct Hits<'w, 's> {
-    chains: Read<'w, 's, RayChain, RayTable>,
+    paths: Read<'w, 's, RayChain, RayTable>,
     instances: Read<'w, 's, HitInstance, RayTable>,
     primitives: Read<'w, 's, HitPrimitive, RayTable>,
     uvs: Read<'w, 's, HitUv, RayTable>,
@@ -45,8 +49,9 @@ pub struct Lists<'w, 's> {
     draw: Write<'w, 's, DrawList, ChainTable>,
 }
 
-/// Appends a vertex to every chain whose ray met a surface, with the light that the surface sends back along the path,
-/// weighted against sampling that light; lists the chain for connection and scattering if its path may grow further.
+/// Appends a vertex to every path whose ray met a surface, or, from the camera, a light at infinity. In techniques that find
+/// light from the camera alone it has the light that it sends back along the path, weighted against sampling that light; in
+/// those with both ends, what their joining will need. Lists the path for connection and scattering if it may grow further.
 pub fn extend_paths(
     scene: Res<SceneRef>,
     place: Res<TilePlace>,
@@ -55,11 +60,14 @@ pub fn extend_paths(
     hits: Hits,
     mut lengths: Write<PathLength, ChainTable>,
     mut vertices: Vertices,
+    mut ends: Ends,
     mut lists: Lists,
 ) {
     let scene = &*scene.0;
-    queues.draw = 0;
-    let (chains, directions) = (hits.chains.rows(), hits.directions.rows());
+    if !queues.starting {
+        queues.draw = 0;
+    }
+    let (paths, directions) = (hits.paths.rows(), hits.directions.rows());
     let (instances, primitives, uvs) = (hits.instances.rows(), hits.primitives.rows(), hits.uvs.rows());
     let lengths = lengths.rows();
     let (kinds, positions, normals) = (
@@ -81,9 +89,44 @@ pub fn extend_paths(
     );
     let (textures, tangents) = (vertices.textures.rows(), vertices.tangents.rows());
     let (connect, draw, scatter) = (lists.connect.rows(), lists.draw.rows(), lists.scatter.rows());
+    let mut ends = ends.columns();
     for ray in 0..queues.rays {
+        let path = paths.at(ray) as usize;
+        let from_light = place.starts_at_light(path);
         let instance = instances.at(ray);
-        if instance == NO_HIT {
+        let escaped = instance == NO_HIT;
+        if escaped && (from_light || !scene.lights.has_infinite()) {
+            continue;
+        }
+        let direction = directions.at(path);
+        let depth = lengths.at(path) + 1;
+        let (previous, vertex) = (place.vertex(path, depth - 1), place.vertex(path, depth));
+        lengths.put(path, depth);
+        counters.vertices += 1;
+        ratios.put(vertex, Rgb::BLACK);
+        densities.put(vertex, 0.0);
+        if !connections.is_empty() {
+            connections.put(vertex, Rgb::BLACK);
+        }
+        let sampled_before = connectable(kinds.at(previous)).then(|| (positions.at(previous), densities.at(previous)));
+        if escaped {
+            // The vertex has the direction in which its light travels, and no position.
+            kinds.put(vertex, VERTEX_INFINITE);
+            positions.put(vertex, positions.at(previous));
+            normals.put(vertex, -direction);
+            offsets.put(vertex, 0.0);
+            if !emissions.is_empty() {
+                emissions.put(vertex, met_at_infinity(scene, direction, sampled_before));
+            }
+            if let Some(ends) = &mut ends {
+                let arrival = Arrival {
+                    path,
+                    depth,
+                    direction,
+                    light: NOT_EMITTING,
+                };
+                ends.append(scene, &place, &arrival, (kinds, positions, normals, densities));
+            }
             continue;
         }
         let hit = Hit {
@@ -92,33 +135,31 @@ pub fn extend_paths(
             uv: uvs.at(ray),
         };
         let point = scene.geometry.surface_point(hit);
-        let chain = chains.at(ray) as usize;
-        let direction = directions.at(chain);
-        let depth = lengths.at(chain) + 1;
-        let (previous, vertex) = (place.vertex(chain, depth - 1), place.vertex(chain, depth));
-        lengths.put(chain, depth);
-        counters.vertices += 1;
-
-        let mut emission = Rgb::BLACK;
-        if point.light != NOT_EMITTING {
-            emission = scene.lights.radiance(point.light, point.geometric_normal, -direction);
-            if connectable(kinds.at(previous)) {
-                let from = positions.at(previous);
-                let sampled = scene
-                    .lights
-                    .density(point.light, from, point.position, point.geometric_normal);
-                emission = emission * mis::power_heuristic(densities.at(previous), sampled);
-            }
-        }
         kinds.put(vertex, VERTEX_SURFACE);
         positions.put(vertex, point.position);
         normals.put(vertex, point.geometric_normal);
         offsets.put(vertex, point.offset);
-        ratios.put(vertex, Rgb::BLACK);
-        densities.put(vertex, 0.0);
-        emissions.put(vertex, emission);
-        if !connections.is_empty() {
-            connections.put(vertex, Rgb::BLACK);
+        if !emissions.is_empty() {
+            let mut emission = Rgb::BLACK;
+            if point.light != NOT_EMITTING {
+                emission = scene.lights.radiance(point.light, point.geometric_normal, -direction);
+                if let Some((from, density)) = sampled_before {
+                    let sampled = scene
+                        .lights
+                        .density(point.light, from, point.position, point.geometric_normal);
+                    emission = emission * Heuristic::Power.share(density, sampled);
+                }
+            }
+            emissions.put(vertex, emission);
+        }
+        if let Some(ends) = &mut ends {
+            let arrival = Arrival {
+                path,
+                depth,
+                direction,
+                light: point.light,
+            };
+            ends.append(scene, &place, &arrival, (kinds, positions, normals, densities));
         }
         if shading_normals.is_empty() {
             continue;
@@ -127,9 +168,11 @@ pub fn extend_paths(
         let front = point.geometric_normal.dot(direction) < 0.0;
         let material = scene.materials.facing(point.material, front);
         materials.put(vertex, material);
-        names.0.put(vertex, hit.instance);
-        names.1.put(vertex, hit.primitive);
-        names.2.put(vertex, hit.uv);
+        if !names.0.is_empty() {
+            names.0.put(vertex, hit.instance);
+            names.1.put(vertex, hit.primitive);
+            names.2.put(vertex, hit.uv);
+        }
         if !(textures.is_empty() && tangents.is_empty()) {
             let local = scene.geometry.texture_point(hit);
             if !textures.is_empty() {
@@ -140,22 +183,40 @@ pub fn extend_paths(
             }
         }
 
-        if depth >= scene.max_depth {
-            continue;
-        }
-        if !draw.is_empty() {
-            draw.put(queues.draw, chain as u32);
+        // The lens adds an edge to every light subpath.
+        let last = scene.max_depth - u32::from(from_light);
+        if !draw.is_empty() && (depth < last || (from_light && depth == last)) {
+            draw.put(queues.draw, path as u32);
             queues.draw += 1;
+        }
+        if depth >= last {
+            continue;
         }
         let kind = scene.materials.kind(material);
         if !kind.is_discrete() && !connections.is_empty() {
-            connect.put(queues.connect, chain as u32);
+            connect.put(queues.connect, path as u32);
             queues.connect += 1;
         }
         if let Some(model) = scene.materials.model(kind) {
-            scatter.put(place.vertex(queues.scatter[model], model as u32), chain as u32);
+            scatter.put(place.vertex(queues.scatter[model], model as u32), path as u32);
             queues.scatter[model] += 1;
         }
     }
     queues.rays = 0;
+}
+
+/// Radiance from all lights at infinity along `-direction`, each weighted against sampling it from the vertex before, which
+/// has this position and drew the direction with this density.
+pub(super) fn met_at_infinity(scene: &Scene, direction: Vec3, sampled_before: Option<(Vec3, f32)>) -> Rgb {
+    let (lights, travel) = (&scene.lights, -direction);
+    let mut sum = Rgb::BLACK;
+    for light in lights.infinite() {
+        let mut emission = lights.radiance(light, travel, travel);
+        if let Some((from, density)) = sampled_before {
+            let sampled = lights.density(light, from, from, travel);
+            emission = emission * Heuristic::Power.share(density, sampled);
+        }
+        sum += emission;
+    }
+    sum
 }

@@ -12,9 +12,9 @@ use crate::chain::{
 use crate::color::Rgb;
 use crate::film::Splat;
 use crate::path::{
-    BookedWeight, ChainTable, CoordinateColumns, CoordinateColumnsMut, Decisions, FilmCoordinates, LightDraw,
-    PathDraws, PrimaryDepth, PrimaryFilm, PrimaryTable, ProposedPrimaryTable, SplatColor, SplatCount, SplatPixel,
-    SplatTable, VertexCoordinates, target_of,
+    BookedWeight, ChainTable, CoordinateColumns, CoordinateColumnsMut, Decisions, FilmCoordinates, LENS_CENTER,
+    LightDraw, PathDraws, PrimaryDepth, PrimaryFilm, PrimaryTable, ProposedPrimaryTable, SplatColor, SplatCount,
+    SplatPixel, SplatTable, VertexCoordinates, target_of,
 };
 use crate::plan::MovesVertices;
 use crate::sampling::{Purpose, StreamKey};
@@ -71,6 +71,11 @@ struct MovedDraws<'a, 'b> {
 }
 
 impl PathDraws for MovedDraws<'_, '_> {
+    #[inline]
+    fn lens(&mut self) -> [f32; 2] {
+        LENS_CENTER
+    }
+
     #[inline]
     fn reach(&mut self, depth: u32) {
         let vertex = self.place.vertex(self.chain, depth - 1);

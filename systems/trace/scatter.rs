@@ -1,13 +1,13 @@
-//! What the scatter systems share: reading the surface point that a chain stands on, and writing where it goes on.
+//! What the scatter systems share: reading the surface point that a path stands on, and writing where it goes on.
 
 use super::super::tile::{Queues, TilePlace};
-use crate::material::Scattered;
+use crate::material::{Scattered, Transport};
 use crate::path::*;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::SystemParam;
 use glam::{Vec2, Vec3};
 
-/// The columns that describe the surface point a chain stands on.
+/// The columns that describe the surface point a path stands on.
 #[derive(SystemParam)]
 pub struct Scatterers<'w, 's> {
     lengths: Read<'w, 's, PathLength, ChainTable>,
@@ -17,7 +17,7 @@ pub struct Scatterers<'w, 's> {
 
 /// The surface point's columns in the vertex table.
 #[derive(SystemParam)]
-struct Surface<'w, 's> {
+pub struct Surface<'w, 's> {
     positions: Read<'w, 's, VertexPosition, ProposalTable>,
     normals: Read<'w, 's, VertexNormal, ProposalTable>,
     shading_normals: Read<'w, 's, VertexShadingNormal, ProposalTable>,
@@ -34,7 +34,8 @@ pub struct ScattererColumns<'a> {
     surface: SurfaceColumns<'a>,
 }
 
-struct SurfaceColumns<'a> {
+/// [`Surface`] as slices.
+pub struct SurfaceColumns<'a> {
     positions: &'a [VertexPosition],
     normals: &'a [VertexNormal],
     shading_normals: &'a [VertexShadingNormal],
@@ -45,7 +46,8 @@ struct SurfaceColumns<'a> {
 }
 
 impl Surface<'_, '_> {
-    fn columns(&self) -> SurfaceColumns<'_> {
+    /// The columns as slices.
+    pub fn columns(&self) -> SurfaceColumns<'_> {
         SurfaceColumns {
             positions: self.positions.rows(),
             normals: self.normals.rows(),
@@ -70,8 +72,9 @@ impl Scatterers<'_, '_> {
 }
 
 impl SurfaceColumns<'_> {
+    /// The surface point of a vertex, where a path arrives in `direction`.
     #[inline]
-    fn at(&self, vertex: usize, direction: Vec3) -> Scatterer {
+    pub fn at(&self, vertex: usize, direction: Vec3) -> Scatterer {
         Scatterer {
             position: self.positions.at(vertex),
             normal: self.normals.at(vertex),
@@ -94,12 +97,12 @@ impl SurfaceColumns<'_> {
 }
 
 impl ScattererColumns<'_> {
-    /// Depth, vertex number and surface point of a chain's last vertex.
+    /// Depth, vertex number and surface point of a path's last vertex.
     #[inline]
-    pub fn at(&self, place: &TilePlace, chain: usize) -> (u32, usize, Scatterer) {
-        let depth = self.lengths.at(chain);
-        let vertex = place.vertex(chain, depth);
-        (depth, vertex, self.surface.at(vertex, self.directions.at(chain)))
+    pub fn at(&self, place: &TilePlace, path: usize) -> (u32, usize, Scatterer) {
+        let depth = self.lengths.at(path);
+        let vertex = place.vertex(path, depth);
+        (depth, vertex, self.surface.at(vertex, self.directions.at(path)))
     }
 }
 
@@ -111,6 +114,7 @@ pub struct Outcomes<'w, 's> {
     kinds: Write<'w, 's, VertexKind, ProposalTable>,
     ratios: Write<'w, 's, VertexRatio, ProposalTable>,
     densities: Write<'w, 's, VertexDensity, ProposalTable>,
+    reverses: Write<'w, 's, VertexReverse, ProposalTable>,
     directions: Write<'w, 's, Direction, ChainTable>,
     throughputs: Write<'w, 's, Throughput, ChainTable>,
     scales: Write<'w, 's, RadianceScale, ChainTable>,
@@ -118,8 +122,9 @@ pub struct Outcomes<'w, 's> {
 }
 
 impl Outcomes<'_, '_> {
-    /// Scatters the listed chains, `count` of them: `sample` draws a direction for a surface point, a local incoming
-    /// direction, a chain and a depth. A path that is absorbed, or whose direction leaks through the surface, ends.
+    /// Scatters the listed paths, `count` of them: `sample` draws a direction for a surface point, a local incoming
+    /// direction, a path, a depth, and what the path carries. A path that is absorbed, or whose direction leaks through the
+    /// surface, ends.
     #[inline]
     pub fn scatter(
         &mut self,
@@ -127,18 +132,25 @@ impl Outcomes<'_, '_> {
         queues: &mut Queues,
         count: usize,
         list: impl Fn(usize) -> u32,
-        sample: impl Fn(&Scatterer, Vec3, usize, u32) -> Option<Scattered>,
+        sample: impl Fn(&Scatterer, Vec3, usize, u32, Transport) -> Option<Scattered>,
     ) {
         let (lengths, surface) = (self.lengths.rows(), self.surface.columns());
         let (kinds, ratios, densities) = (self.kinds.rows(), self.ratios.rows(), self.densities.rows());
         let (directions, throughputs) = (self.directions.rows(), self.throughputs.rows());
-        let (scales, scattered) = (self.scales.rows(), self.scattered.rows());
+        let (scales, scattered, reverses) = (self.scales.rows(), self.scattered.rows(), self.reverses.rows());
         for entry in 0..count {
-            let chain = list(entry) as usize;
-            let depth = lengths.at(chain);
-            let vertex = place.vertex(chain, depth);
-            let scatterer = surface.at(vertex, directions.at(chain));
-            let Some((direction, outcome)) = scatterer.scatter(|wi| sample(&scatterer, wi, chain, depth)) else {
+            let path = list(entry) as usize;
+            let depth = lengths.at(path);
+            let vertex = place.vertex(path, depth);
+            let scatterer = surface.at(vertex, directions.at(path));
+            let transport = if place.starts_at_light(path) {
+                Transport::Importance
+            } else {
+                Transport::Radiance
+            };
+            let Some((direction, outcome)) =
+                scatterer.scatter(transport, |wi| sample(&scatterer, wi, path, depth, transport))
+            else {
                 continue;
             };
             if outcome.discrete {
@@ -146,12 +158,16 @@ impl Outcomes<'_, '_> {
             }
             ratios.put(vertex, outcome.ratio);
             densities.put(vertex, outcome.density);
-            directions.put(chain, direction);
-            throughputs.put(chain, throughputs.at(chain) * outcome.ratio);
-            if !scales.is_empty() {
-                scales.put(chain, scales.at(chain) * (outcome.relative_ior * outcome.relative_ior));
+            if !reverses.is_empty() {
+                reverses.put(vertex, outcome.reverse);
             }
-            scattered.put(queues.scattered, chain as u32);
+            directions.put(path, direction);
+            throughputs.put(path, throughputs.at(path) * outcome.ratio);
+            // Of light that travels along the path, refraction takes none away.
+            if !scales.is_empty() && transport == Transport::Radiance {
+                scales.put(path, scales.at(path) * (outcome.relative_ior * outcome.relative_ior));
+            }
+            scattered.put(queues.scattered, path as u32);
             queues.scattered += 1;
         }
     }

@@ -3,7 +3,7 @@
 use super::super::tile::{Queues, SceneRef, TilePlace};
 use super::draws::Draws;
 use super::scatter::Outcomes;
-use crate::material::{InTable, MaterialKind, Transport, for_each_material};
+use crate::material::{InTable, MaterialKind, for_each_material};
 use crate::path::{ScatterList, ScatterTable};
 use crate::plan::{Place, SystemSpec, TraceStep};
 use crate::system;
@@ -13,7 +13,7 @@ use bevy_ecs::system::{Res, ResMut};
 macro_rules! define {
     ($($Kind:ident, $table:ident, $name:literal, $scatter:ident, discrete: $discrete:literal, lobes: $lobes:literal;)*) => {
         $(
-            #[doc = concat!("Samples the direction in which every chain that stands on a ", $name, " material goes on.")]
+            #[doc = concat!("Samples the direction in which every path that stands on a ", $name, " material goes on.")]
             pub fn $scatter(
                 scene: Res<SceneRef>,
                 place: Res<TilePlace>,
@@ -57,10 +57,10 @@ fn scatter<M: InTable>(
         &mut queues,
         count,
         |entry| lists.at(place.vertex(entry, model as u32)),
-        |point, wi, chain, depth| {
-            let draw = draws.scatter(chain, depth, M::KIND.chooses_lobes());
+        |point, wi, path, depth, transport| {
+            let draw = draws.scatter(path, depth, M::KIND.chooses_lobes());
             let at = materials.shading(point.uv);
-            models[materials.row(point.material)].sample(&at, wi, draw, Transport::Radiance)
+            models[materials.row(point.material)].sample(&at, wi, draw, transport)
         },
     );
 }

@@ -7,7 +7,7 @@ use chainlight::geometry::{
 };
 use chainlight::scene::{self, Emission, Flattened, Format, Instance, Mesh, Scene, SceneOverrides, parse_scene};
 use chainlight::table::{Column, Rows, lane_groups};
-use glam::{DVec2, Vec3};
+use glam::{DVec2, Mat3, Vec3};
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -71,6 +71,7 @@ impl World {
             geometry: scene::Geometry::Sphere {
                 center,
                 radius,
+                frame: Mat3::IDENTITY,
                 material: 0,
             },
             emission,
@@ -81,6 +82,8 @@ impl World {
         let flattened = Flattened {
             instances: self.instances,
             materials: DESCRIPTION.materials.clone().into_iter().collect(),
+            lights: Vec::new(),
+            textures: Vec::new(),
             warnings: Vec::new(),
         };
         Scene::compile(&DESCRIPTION, &flattened, SceneOverrides::default()).expect("a box filter")

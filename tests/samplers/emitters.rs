@@ -69,6 +69,25 @@ pub fn sphere_light(center: Vec3, radius: f32, radiance: Rgb) -> Emitter {
     }
 }
 
+/// A light of a disk.
+pub fn disk_light(center: Vec3, normal: Vec3, radius: f32, radiance: Rgb) -> Emitter {
+    Emitter {
+        shape: EmitterShape::Disk { center, normal, radius },
+        radiance,
+        area: (0.5 * TAU * f64::from(radius) * f64::from(radius)) as f32,
+    }
+}
+
+/// A light of a tube.
+pub fn cylinder_light(from: Vec3, to: Vec3, radius: f32, radiance: Rgb) -> Emitter {
+    let length = (to.as_dvec3() - from.as_dvec3()).length();
+    Emitter {
+        shape: EmitterShape::Cylinder { from, to, radius },
+        radiance,
+        area: (TAU * f64::from(radius) * length) as f32,
+    }
+}
+
 /// A triangle as it is seen from a point, with coordinates on it: (b₁ + b₂)² and the share of b₂, in which area is area.
 pub struct SeenTriangle {
     /// The first corner.

@@ -70,6 +70,7 @@ fn meet(emitter: &Emitter, d: DVec3) -> Option<(Vec3, Vec3)> {
                 ((from + d * (along - half2.sqrt())).as_vec3(), normal.as_vec3())
             })
         }
+        EmitterShape::Disk { .. } | EmitterShape::Cylinder { .. } => None,
     }
 }
 

@@ -2,12 +2,17 @@
 //! chance of a false alarm of one in a hundred; each prints what it could have seen, and is shown to fail on a planted
 //! bias.
 
+mod cameras;
 mod diffuse;
 mod discrete;
+mod discrete_lights;
+mod emission;
 mod emitters;
+mod infinite;
 mod light_choice;
 mod lights;
 mod primary;
+mod remote;
 mod resampling;
 mod rough;
 mod rough_lobes;

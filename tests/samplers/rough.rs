@@ -59,7 +59,11 @@ fn ground_glass_reflects_and_refracts_as_its_density_says() {
                 let name = format!("{distribution:?} {alpha:?}, index {ior}, cosine {cosine}");
                 FAMILY.follows(&name, &counts, &Heights::WidePoles.expected(&glass, wi, 0.0), SEES);
                 let denser = ground(distribution, alpha, 1.03 * ior);
-                FAMILY.refuses(&format!("{name}, 3 % off"), &counts, &Heights::WidePoles.expected(&denser, wi, 0.0));
+                FAMILY.refuses(
+                    &format!("{name}, 3 % off"),
+                    &counts,
+                    &Heights::WidePoles.expected(&denser, wi, 0.0),
+                );
             }
         }
     }

@@ -22,6 +22,40 @@ pub enum CameraDescription {
         #[serde(default)]
         fov_axis: FovAxis,
     },
+    /// A camera with a lens: in focus at one distance, blurred elsewhere.
+    ThinLens {
+        /// The centre of the lens, in scene units.
+        origin: [f32; 3],
+        /// A point that projects to the centre of the film, in scene units; must differ from `origin`.
+        target: [f32; 3],
+        /// A direction that points up in the picture; any length but zero, not parallel to the view.
+        /// Default (0, 1, 0).
+        #[serde(default = "plus_y")]
+        up: [f32; 3],
+        /// Full angle of view in degrees, in (0, 180), across the side of the film that `fov_axis` names.
+        fov: f32,
+        /// Which side of the film `fov` spans. Default `Vertical`.
+        #[serde(default)]
+        fov_axis: FovAxis,
+        /// Radius of the lens in scene units, > 0: the focal length over twice the f-number.
+        aperture_radius: f32,
+        /// From the lens to the plane that is in focus, along the view, in scene units, > 0. Default: to `target`.
+        #[serde(default)]
+        focus_distance: Option<f32>,
+    },
+    /// A camera whose rays are all parallel.
+    Orthographic {
+        /// The centre of the film's image in the scene, in scene units; what lies behind it is not seen.
+        origin: [f32; 3],
+        /// A point that projects to the centre of the film, in scene units; must differ from `origin`.
+        target: [f32; 3],
+        /// A direction that points up in the picture; any length but zero, not parallel to the view.
+        /// Default (0, 1, 0).
+        #[serde(default = "plus_y")]
+        up: [f32; 3],
+        /// What the film's height spans, in scene units, > 0.
+        height: f32,
+    },
 }
 
 /// The side of the film that an angle of view spans.

@@ -6,17 +6,21 @@
 mod camera;
 mod color;
 mod film;
+mod light;
 mod material;
 mod settings;
 mod shape;
+mod texture;
 mod unique_map;
 
 pub use camera::{CameraDescription, FovAxis};
 pub use color::ColorDescription;
 pub use film::{FilmDescription, FilterDescription, MAX_FILM_PIXELS, MAX_FILM_SIDE};
+pub use light::LightDescription;
 pub use material::MaterialDescription;
 pub use settings::{DEFAULT_MAX_DEPTH, MAX_DEPTH_LIMIT, SettingsDescription};
 pub use shape::{ShapeDescription, ShapeKind, TransformStep};
+pub use texture::{TextureDescription, TextureEncoding, TextureFilter, TextureWrap};
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -37,9 +41,15 @@ pub struct SceneDescription {
     pub camera: CameraDescription,
     /// The film behind it. Required.
     pub film: FilmDescription,
+    /// Textures by name. Default: none. Two of the same name are an error.
+    #[serde(default, deserialize_with = "unique_map::textures")]
+    pub textures: BTreeMap<String, TextureDescription>,
     /// Materials by name. Default: none. Two of the same name are an error.
-    #[serde(default, deserialize_with = "unique_map::deserialize")]
+    #[serde(default, deserialize_with = "unique_map::materials")]
     pub materials: BTreeMap<String, MaterialDescription>,
+    /// Lights that are no shapes. Default: none.
+    #[serde(default)]
+    pub lights: Vec<LightDescription>,
     /// Shapes, in the order in which they become instances. Required.
     pub shapes: Vec<ShapeDescription>,
 }

@@ -53,6 +53,62 @@ pub enum ShapeKind {
         /// Its radius, > 0.
         radius: f32,
     },
+    /// A flat disk.
+    Disk {
+        /// Its centre. Default (0, 0, 0).
+        #[serde(default)]
+        center: [f32; 3],
+        /// Its geometric normal; any length but zero.
+        normal: [f32; 3],
+        /// Its radius, > 0.
+        radius: f32,
+    },
+    /// A tube without ends; normals point outward.
+    Cylinder {
+        /// The centre of one end.
+        from: [f32; 3],
+        /// The centre of the other end; another point.
+        to: [f32; 3],
+        /// Its radius, > 0.
+        radius: f32,
+    },
+    /// A ring, as triangles with smooth shading normals; normals point outward.
+    Torus {
+        /// Its centre. Default (0, 0, 0).
+        #[serde(default)]
+        center: [f32; 3],
+        /// The axis that it goes around; any length but zero. Default (0, 1, 0).
+        #[serde(default = "plus_y")]
+        axis: [f32; 3],
+        /// From its centre to the middle of its tube, > 0.
+        major_radius: f32,
+        /// Radius of its tube, > 0 and below `major_radius`.
+        minor_radius: f32,
+        /// Pieces around the axis and around the tube, each in 3..=16384. Default (64, 32).
+        #[serde(default = "torus_segments")]
+        segments: [u32; 2],
+    },
+    /// A parallelogram with hills, as triangles with smooth shading normals; its geometric normal is on the side of
+    /// `edge_u` x `edge_v`.
+    HeightField {
+        /// A picture of the heights: PNG, JPEG, OpenEXR or Radiance HDR, relative to the folder of the scene file. The mean of
+        /// its channels as numbers from 0 to 1 (any in EXR and HDR); its bottom row is at the corner. Either this or `heights`.
+        #[serde(default)]
+        file: Option<PathBuf>,
+        /// The heights, row by row: rows along `edge_u`, the first one at the corner, all equally long.
+        #[serde(default)]
+        heights: Option<Vec<Vec<f32>>>,
+        /// The corner where the two edges meet. Default (0, 0, 0).
+        #[serde(default)]
+        corner: [f32; 3],
+        /// From the corner along one side.
+        edge_u: [f32; 3],
+        /// From the corner along the other side; not parallel to `edge_u`.
+        edge_v: [f32; 3],
+        /// By how much heights are scaled, in scene units along the normal. Default 1.
+        #[serde(default = "one")]
+        height: f32,
+    },
     /// A triangle mesh in a Wavefront OBJ file; normals by winding, counter-clockwise seen from outside.
     Obj {
         /// The file, relative to the folder of the scene file.
@@ -80,6 +136,18 @@ pub enum TransformStep {
     },
     /// Any affine map, as the four rows of a matrix that multiplies column vectors; the last row must be (0, 0, 0, 1).
     Matrix([[f32; 4]; 4]),
+}
+
+fn plus_y() -> [f32; 3] {
+    [0.0, 1.0, 0.0]
+}
+
+fn torus_segments() -> [u32; 2] {
+    [64, 32]
+}
+
+fn one() -> f32 {
+    1.0
 }
 
 fn yes() -> bool {

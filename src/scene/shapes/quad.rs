@@ -4,7 +4,10 @@ use super::checked;
 use crate::scene::at::{At, wide};
 use crate::scene::error::SceneError;
 use crate::scene::mesh::Mesh;
-use glam::DAffine3;
+use glam::{DAffine3, Vec2};
+
+/// Texture coordinates of the corners, counter-clockwise from the lower left.
+pub(super) const CORNERS: [Vec2; 4] = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
 
 /// The two triangles of a quad. Vertices: corner, corner + u, corner + u + v, corner + v.
 pub(in crate::scene) fn mesh(
@@ -16,7 +19,10 @@ pub(in crate::scene) fn mesh(
 ) -> Result<Mesh, SceneError> {
     let corner = wide(corner);
     let [u, v] = edges.map(wide);
-    let mut mesh = Mesh::default();
+    let mut mesh = Mesh {
+        uvs: CORNERS.to_vec(),
+        ..Mesh::default()
+    };
     mesh.add(
         &[corner, corner + u, corner + u + v, corner + v],
         [[0, 1, 2], [0, 2, 3]].into_iter(),

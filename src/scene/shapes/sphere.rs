@@ -1,15 +1,11 @@
 //! Spheres.
 
-use super::too_far;
+use super::{MIN_RADIUS, similarity, too_far, too_small, unit_axes};
 use crate::scene::at::{At, wide};
 use crate::scene::error::SceneError;
 use crate::scene::flatten::Geometry;
 use crate::scene::mesh::MAX_COORDINATE;
-use crate::scene::transform::similarity_scale;
-use glam::DAffine3;
-
-/// The smallest radius in world space: with it, areas and their reciprocals stay in the range of `f32`.
-const MIN_RADIUS: f64 = 1.0e-9;
+use glam::{DAffine3, DMat3};
 
 /// A sphere in the world. `at` is the shape's place, for what its transform does to it.
 pub(in crate::scene) fn geometry(
@@ -19,27 +15,19 @@ pub(in crate::scene) fn geometry(
     map: &DAffine3,
     material: u32,
 ) -> Result<Geometry, SceneError> {
-    let Some(scale) = similarity_scale(map) else {
-        let message = "this transform would make an ellipsoid of the sphere";
-        return Err(at
-            .key("transform")
-            .error(message, "scale it alike along all axes, or use an `Obj` mesh instead"));
-    };
+    let scale = similarity(at, map, "this transform would make an ellipsoid of the sphere")?;
     let center = map.transform_point3(wide(center));
     let radius = scale * f64::from(radius);
     if center.abs().max_element() + radius > f64::from(MAX_COORDINATE) {
         return Err(too_far(at));
     }
     if radius < MIN_RADIUS {
-        let message = format!(
-            "this sphere's radius in world space is {:e}, too small to compute with",
-            radius as f32
-        );
-        return Err(at.error(message, "choose a smaller unit of length"));
+        return Err(too_small(at, "sphere", radius));
     }
     Ok(Geometry::Sphere {
         center: center.as_vec3(),
         radius: radius as f32,
+        frame: unit_axes(map, DMat3::IDENTITY),
         material,
     })
 }
@@ -61,6 +49,7 @@ mod tests {
         let Geometry::Sphere {
             center,
             radius,
+            frame,
             material,
         } = moved.geometry
         else {
@@ -69,6 +58,10 @@ mod tests {
         // (1, 0, 0) -> (-3, 0, 0) -> (0, 0, 3) -> (0, 1, 3)
         assert!(center.distance(Vec3::new(0.0, 1.0, 3.0)) < 1.0e-5, "{center}");
         assert_eq!((radius, material), (6.0, 0));
+        // Mirrored along x, then turned about y.
+        assert!(
+            frame.x_axis.distance(Vec3::Z) < 1e-6 && frame.y_axis == Vec3::Y && frame.z_axis.distance(Vec3::X) < 1e-6
+        );
     }
 
     #[test]

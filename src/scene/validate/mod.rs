@@ -1,8 +1,10 @@
 //! Holds the values of a scene against their ranges: every number finite, and nothing that a later stage would divide
 //! by can be zero. What depends on transforms and on mesh files is checked where they are applied and read.
 
+mod light;
 mod material;
 mod shape;
+mod texture;
 mod view;
 
 pub(super) use shape::MAX_RADIANCE;
@@ -28,15 +30,24 @@ pub fn validate(source: &SceneSource) -> Result<Vec<SceneWarning>, SceneError> {
     }
     view::film(&root.key("film"), &scene.film)?;
     view::camera(&root.key("camera"), &scene.camera)?;
+    for (name, texture) in &scene.textures {
+        if name.is_empty() {
+            return Err(root.key("textures").name(name).error("a texture's name is empty", ""));
+        }
+        texture::check(&root.key("textures").key(name), texture)?;
+    }
     let known = material::Known {
         materials: &scene.materials,
-        textures: Vec::new(),
+        textures: scene.textures.keys().map(String::as_str).collect(),
     };
     for (name, material) in &scene.materials {
         if name.is_empty() {
             return Err(root.key("materials").name(name).error("a material's name is empty", ""));
         }
         material::check(&root.key("materials").key(name), material, &known)?;
+    }
+    for (index, light) in scene.lights.iter().enumerate() {
+        light::check(&root.key("lights").index(index), light)?;
     }
     let shapes = root.key("shapes");
     if scene.shapes.is_empty() {

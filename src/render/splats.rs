@@ -1,0 +1,223 @@
+//! Renders whose samples are independent and bring light to many pixels: light tracing, bidirectional path tracing.
+//!
+//! Light that one path brings to several pixels is correlated, so that single pixels tell too little about the error of a
+//! block. Steps therefore take turns among some films, and their spread is the error, as with groups of chains. A film that
+//! has n of the N steps counts by n/N.
+
+use super::RenderError;
+use super::rendering::{Rendering, error_blocks};
+use super::samples::Samples;
+use super::tile_world::{TileWorld, lock};
+use crate::film::{FilmError, GroupFilm, Picture, Tally, block_means, develop_combined};
+use crate::plan::Plan;
+use crate::scene::Scene;
+use crate::stats::error::PictureError;
+use crate::stats::group_means::GroupMeans;
+use crate::systems::SystemCost;
+use crate::systems::tile::{Counters, SceneRef, SplatFilms, StrategiesRef};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+/// A render of independent samples that bring light to many pixels.
+pub struct SplatRender {
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// The plan that the worlds were built from.
+    pub plan: Plan,
+    /// The films that steps take turns among.
+    pub films: Arc<[Mutex<GroupFilm>]>,
+    pub(super) seed: u64,
+    pub(super) samples: Samples,
+    /// The radiance that one unit of a film stands for: a power of two.
+    unit: f64,
+}
+
+impl SplatRender {
+    /// Builds films, threads and their worlds; no more threads than there are tiles.
+    ///
+    /// # Errors
+    /// Films that do not fit, threads that cannot be started, or a plan without both ends.
+    pub fn new(scene: Arc<Scene>, plan: Plan, seed: u64, threads: usize) -> Result<Self, RenderError> {
+        let Some(strategies) = plan.strategies.filter(|_| plan.splat_films > 0) else {
+            return Err(RenderError::NoSplats {
+                technique: plan.technique.name(),
+            });
+        };
+        let film = |_| GroupFilm::new(scene.width, scene.height).map(Mutex::new);
+        let films: Arc<[Mutex<GroupFilm>]> = (0..plan.splat_films)
+            .map(film)
+            .collect::<Result<Vec<_>, FilmError>>()?
+            .into();
+        let unit = unit_of(scene.lights.max_radiance());
+        let samples = Samples::new(&plan.tile, scene.pixel_count(), seed, threads, |world| {
+            world.insert_resource(SceneRef(Arc::clone(&scene)));
+            world.insert_resource(StrategiesRef(strategies));
+            world.insert_resource(SplatFilms {
+                films: Arc::clone(&films),
+                scale: (1.0 / unit) as f32,
+            });
+        })?;
+        Ok(Self {
+            scene,
+            plan,
+            films,
+            seed,
+            samples,
+            unit,
+        })
+    }
+
+    /// [`burst`](Rendering::burst) with the tiles dealt in the given order, which must name every tile once; others are
+    /// passed over.
+    pub fn burst_in_order(&mut self, steps: u64, order: &[usize], done: &(dyn Fn(u64) + Sync)) {
+        self.samples.burst(steps, order, done);
+    }
+
+    /// The radiance that one unit of each film's sums stands for, and its share of all steps; of those that have any.
+    fn scales(&self) -> Vec<(f64, f64)> {
+        let (films, steps) = (self.films.len() as u64, self.samples.steps);
+        let of_film = |number: u64| (steps + films - 1 - number) / films;
+        let counts = (0..films).map(of_film).filter(|&count| count > 0);
+        counts
+            .map(|count| (self.unit / count as f64, count as f64 / steps as f64))
+            .collect()
+    }
+
+    /// What every film stands for in the mean radiance of every block and channel (number block · 3 + channel).
+    #[must_use]
+    pub fn film_block_means(&self) -> Option<GroupMeans> {
+        let grid = error_blocks(&self.scene);
+        let scales = self.scales();
+        let films = self.films.iter().zip(&scales);
+        let mut rows = films
+            .map(|(film, (scale, _))| block_means(&lock(film), &grid, *scale))
+            .collect::<Result<Vec<_>, _>>()
+            .ok()?;
+        let mut values = vec![0.0; rows.len()];
+        for statistic in 0..rows.first()?.len() {
+            for (value, row) in values.iter_mut().zip(&rows) {
+                *value = row[statistic];
+            }
+            combine(&mut values, &scales);
+            for (row, value) in rows.iter_mut().zip(&values) {
+                row[statistic] = *value;
+            }
+        }
+        GroupMeans::from_rows(&rows).ok()
+    }
+}
+
+/// Makes of the films' means v those values whose plain mean is the mean over all steps M, and whose spread is its error:
+/// M + (v − M) · (films · share).
+fn combine(values: &mut [f64], scales: &[(f64, f64)]) {
+    let films = values.len() as f64;
+    let mean: f64 = values.iter().zip(scales).map(|(value, (_, share))| value * share).sum();
+    for (value, (_, share)) in values.iter_mut().zip(scales) {
+        *value = mean + (*value - mean) * (films * share);
+    }
+}
+
+/// The power of two next to `radiance`; 1 for a scene without light.
+fn unit_of(radiance: f32) -> f64 {
+    if radiance > 0.0 && radiance.is_finite() {
+        libm::exp2(libm::round(libm::log2(f64::from(radiance))))
+    } else {
+        1.0
+    }
+}
+
+impl Rendering for SplatRender {
+    fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    fn scene(&self) -> &Arc<Scene> {
+        &self.scene
+    }
+
+    fn steps(&self) -> u64 {
+        self.samples.steps
+    }
+
+    /// One per pixel.
+    fn chains(&self) -> u32 {
+        self.scene.pixel_count()
+    }
+
+    fn threads(&self) -> usize {
+        self.samples.threads()
+    }
+
+    fn tile_count(&self) -> usize {
+        self.samples.tile_count()
+    }
+
+    fn burst(&mut self, steps: u64, done: &(dyn Fn(u64) + Sync)) {
+        self.samples.burst_all(steps, done);
+    }
+
+    fn counters(&self) -> Counters {
+        self.samples.counters()
+    }
+
+    fn costs(&self) -> Vec<SystemCost> {
+        self.samples.costs()
+    }
+
+    fn busy_time(&self) -> Duration {
+        self.samples.busy_time()
+    }
+
+    fn picture(&self) -> Picture {
+        let scales = self.scales();
+        let films: Vec<_> = self.films.iter().take(scales.len()).map(|film| lock(film)).collect();
+        let films: Vec<_> = films.iter().map(|film| &**film).collect();
+        let units: Vec<f64> = scales.iter().map(|(unit, _)| *unit).collect();
+        // All films are of the scene's size, and there is a finite scale for each.
+        develop_combined(&films, &units, self.samples.steps as f32, |values| {
+            combine(values, &scales)
+        })
+        .unwrap_or_default()
+    }
+
+    fn error(&self) -> Option<PictureError> {
+        let means = self.film_block_means()?;
+        PictureError::of(&means)?.relative_to(means.grand_mean())
+    }
+
+    fn save(&self) -> Vec<u8> {
+        SplatRender::save(self)
+    }
+
+    fn tally(&self) -> Tally {
+        let mut sum = Tally::default();
+        self.films.iter().for_each(|film| sum.add(&lock(film).tally()));
+        sum
+    }
+
+    fn for_each_world(&self, look: &mut dyn FnMut(usize, &mut TileWorld)) {
+        self.samples.for_each_world(look);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn films_count_by_their_steps() {
+        // Three films of 5 steps: 2, 2, 1.
+        let scales = [(1.0, 0.4), (1.0, 0.4), (1.0, 0.2)];
+        let mut values = [1.0, 2.0, 6.0];
+        combine(&mut values, &scales);
+        let mean = values.iter().sum::<f64>() / 3.0;
+        assert!((mean - (0.4 + 0.8 + 1.2)).abs() < 1e-12, "{mean}");
+    }
+
+    #[test]
+    fn units_are_powers_of_two_near_the_brightest_radiance() {
+        for (radiance, unit) in [(1.0, 1.0), (17.0, 16.0), (0.2, 0.25), (0.0, 1.0), (f32::INFINITY, 1.0)] {
+            assert_eq!(unit_of(radiance), unit);
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! Joining subpaths: a loop of its own behind the trace loop, since a chain offers many segments, and the ray table has room
+//! for some per chain.
+
+mod book_connections;
+mod join_loop;
+mod offer_connections;
+mod subpaths;
+mod transmit_connections;
+
+pub use book_connections::book_connections;
+pub use join_loop::{JoinCursor, join_loop};
+pub use offer_connections::offer_connections;
+pub use transmit_connections::transmit_connections;
