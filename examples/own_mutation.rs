@@ -7,13 +7,10 @@
 #![expect(clippy::print_stdout, reason = "an example prints what it found")]
 
 use bevy_ecs::system::Res;
-use chainlight::chain::{ChosenMutation, Kernel, MutationList, SupportDensity};
+use chainlight::chain::{Kernel, MutationList, SupportDensity};
 use chainlight::check::{self, Options, built_in_scene};
 use chainlight::cli::{Cli, run_with};
-use chainlight::path::{
-    ChainTable, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth, ProposedPrimaryTable,
-    VertexCoordinates,
-};
+use chainlight::path::{ChainTable, FilmCoordinates, PrimaryFilm};
 use chainlight::plan::{
     Mutation, Place, Plan, PlanOptions, Region, Registered, Registry, Stage, StateSpace, Support, SystemPlan,
     SystemSpec, Technique, TraceStep,
@@ -22,9 +19,8 @@ use chainlight::render::{ChainRender, Rendering};
 use chainlight::sampling::Purpose;
 use chainlight::system;
 use chainlight::systems::chains::{Keys, MutationLists};
+use chainlight::systems::propose::drawing::{Drawing, Drawn};
 use chainlight::systems::propose::proposal::Proposals;
-use chainlight::systems::tile::{Queues, TilePlace};
-use chainlight::systems::trace::draws::{CoordinatesMut, CurrentCoordinates};
 use chainlight::table::{Read, Rows, Write};
 use clap::Parser;
 use serde::{Deserialize, Serialize};
@@ -124,37 +120,10 @@ fn propose_lens_steps(
 }
 
 /// Keeps the coordinates of all vertices that the current path has, and draws those beyond its end.
-fn draw_lens_steps(
-    mutation: Res<Registered<LensStep>>,
-    place: Res<TilePlace>,
-    queues: Res<Queues>,
-    list: Read<DrawList, ChainTable>,
-    chosen: Read<ChosenMutation, ChainTable>,
-    lengths: Read<PathLength, ChainTable>,
-    current_depths: Read<PrimaryDepth, ChainTable>,
-    keys: Keys,
-    current: CurrentCoordinates,
-    mut proposed: CoordinatesMut<ProposedPrimaryTable>,
-    mut depths: Write<ProposedDepth, ChainTable>,
-) {
-    let (list, chosen, lengths, keys) = (list.rows(), chosen.rows(), lengths.rows(), keys.columns());
-    let (current_depths, current) = (current_depths.rows(), current.columns());
-    let (mut proposed, depths) = (proposed.columns(), depths.rows());
-    for entry in 0..queues.draw {
-        let chain = list.at(entry) as usize;
-        if chosen.at(chain) as usize != mutation.number {
-            continue;
-        }
-        let depth = lengths.at(chain);
-        let vertex = place.vertex(chain, depth - 1);
-        let coordinates = if depth <= current_depths.at(chain) {
-            current.at(vertex)
-        } else {
-            VertexCoordinates::independent(keys.at(chain), depth)
-        };
-        proposed.put(vertex, coordinates);
-        depths.put(chain, depth);
-    }
+fn draw_lens_steps(mutation: Res<Registered<LensStep>>, mut drawing: Drawing) {
+    drawing.draw(mutation.number, |current, waiting| {
+        current.map_or_else(|| Drawn::afresh(waiting), Drawn::uniform)
+    });
 }
 
 /// Draws where on the film lens steps can lead, uniformly.

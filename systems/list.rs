@@ -74,6 +74,12 @@ list! {
     CONTINUE_PATHS = Place::Loop(TraceStep::Continue), trace::continue_paths;
     /// Starts a subpath on a light for every chain.
     START_LIGHT_PATHS = PROPOSE, propose::start_light_paths, in_phases(Phases::ALL);
+    /// Lists every subpath for the coordinates of its start.
+    LIST_STARTS = PROPOSE, propose::list_starts, in_phases(Phases::ALL);
+    /// [`START_CAMERA_PATHS`] where starts have primary coordinates: in the first round of the trace loop.
+    START_CAMERA_PATHS_DRAWN = Place::Loop(TraceStep::Continue), propose::start_camera_paths;
+    /// [`START_LIGHT_PATHS`] likewise.
+    START_LIGHT_PATHS_DRAWN = Place::Loop(TraceStep::Continue), propose::start_light_paths;
     /// Runs the loop of [`JoinStep`]s.
     JOIN_LOOP = TRACE, trace::join_loop;
     /// Offers the next strategies that join subpaths.

@@ -5,7 +5,7 @@
 use crate::film::{BlockGrid, Film, GroupFilm};
 use crate::material::KINDS;
 use crate::path::bidirectional::Strategies;
-use crate::path::{VERTEX_DISCRETE, VERTEX_INFINITE, VERTEX_LENS};
+use crate::path::{LIGHT_SUBPATH, VERTEX_DISCRETE, VERTEX_INFINITE, VERTEX_LENS};
 use crate::plan::{Extent, TablePlan, TilePlan};
 use crate::sampling::StreamKey;
 use crate::scene::Scene;
@@ -86,6 +86,15 @@ impl TilePlace {
         path >= self.lights_from as usize
     }
 
+    /// The subpaths of a chain: from the camera, from a light, or both.
+    pub fn subpaths(&self, chain: usize) -> impl Iterator<Item = usize> + use<> {
+        let from_light = chain
+            .checked_add(self.lights_from as usize)
+            .filter(|&path| path < self.capacity as usize);
+        let from_camera = (self.lights_from > 0).then_some(chain);
+        from_camera.into_iter().chain(from_light)
+    }
+
     /// The chain of a subpath.
     #[inline]
     #[must_use]
@@ -117,9 +126,6 @@ impl TilePlace {
     }
 }
 
-/// Marks the depths of light subpaths in keys; no path is as long.
-const LIGHT_SUBPATH: u32 = 1 << 16;
-
 /// Lengths of the dense lists and queues.
 #[derive(Resource, Clone, Copy, Debug, Default)]
 pub struct Queues {
@@ -127,6 +133,8 @@ pub struct Queues {
     pub active: usize,
     /// Chains in [`ConnectList`](crate::path::ConnectList).
     pub connect: usize,
+    /// Whether the subpaths in [`DrawList`](crate::path::DrawList) are yet to be started.
+    pub starting: bool,
     /// Chains in [`DrawList`](crate::path::DrawList).
     pub draw: usize,
     /// Chains in each list of [`ScatterList`](crate::path::ScatterList), by the scene's model number.

@@ -220,6 +220,9 @@ fn mistakes_of_the_camera_the_film_and_the_settings() {
     insta::assert_snapshot!(report);
 }
 
+/// What the cases of materials put others in place of.
+const GOLD: &str = "Conductor(eta: (0.14, 0.38, 1.44), k: (3.98, 2.39, 1.6))";
+
 #[test]
 fn mistakes_of_lenses_and_parallel_cameras() {
     let pinhole = "Perspective(origin: (278, 273, -800), target: (278, 273, 0), fov: 39.3, fov_axis: Horizontal)";
@@ -287,6 +290,104 @@ fn mistakes_of_materials() {
         ),
         ("a negative index", "eta: (0.14", "eta: (-0.14"),
         ("an index of zero", "interior_ior: 1.5", "interior_ior: 0"),
+        ("an unknown metal", GOLD, "Conductor(metal: \"Gold\")"),
+        ("a metal misspelt", GOLD, "Conductor(metal: \"Aut\")"),
+        (
+            "a metal by name and in numbers",
+            "eta: (0.14",
+            "metal: \"Au\", eta: (0.14",
+        ),
+        (
+            "a metal by name and with a k",
+            GOLD,
+            "Conductor(metal: \"Au\", k: (1, 1, 1))",
+        ),
+        ("neither metal nor index", GOLD, "Conductor()"),
+        ("an index without absorption", GOLD, "Conductor(eta: (1, 1, 1))"),
+        (
+            "absorption without an index",
+            GOLD,
+            "RoughConductor(k: (1, 1, 1), alpha: 0.1)",
+        ),
+        ("no roughness", GOLD, "RoughConductor(metal: \"Au\")"),
+        (
+            "two kinds of roughness",
+            GOLD,
+            "RoughConductor(metal: \"Au\", alpha: 0.1, alpha_v: 0.2)",
+        ),
+        (
+            "roughness in one direction",
+            GOLD,
+            "RoughConductor(metal: \"Au\", alpha_u: 0.1)",
+        ),
+        (
+            "roughness in the other",
+            "Dielectric(interior_ior: 1.5)",
+            "RoughDielectric(interior_ior: 1.5, alpha_v: 0.1)",
+        ),
+        (
+            "a roughness below zero",
+            GOLD,
+            "RoughConductor(metal: \"Au\", alpha: -0.1)",
+        ),
+        (
+            "a roughness of zero",
+            "Dielectric(interior_ior: 1.5)",
+            "RoughDielectric(interior_ior: 1.5, alpha: 0)",
+        ),
+        (
+            "a roughness above one",
+            GOLD,
+            "RoughConductor(metal: \"Au\", alpha_u: 0.1, alpha_v: 1.5)",
+        ),
+        (
+            "an unknown distribution",
+            GOLD,
+            "RoughConductor(metal: \"Au\", alpha: 0.1, distribution: Phong)",
+        ),
+        ("a coat too dense", GOLD, "Plastic(interior_ior: 11)"),
+        (
+            "a base that makes light",
+            GOLD,
+            "Plastic(diffuse_reflectance: (1, 1.1, 1))",
+        ),
+        (
+            "a texture that there is not",
+            "reflectance: (0.7, 0.7, 0.7)",
+            "reflectance: \"wood\"",
+        ),
+        (
+            "a number for a colour",
+            "reflectance: (0.7, 0.7, 0.7)",
+            "reflectance: 0.7",
+        ),
+        (
+            "two numbers for a colour",
+            "reflectance: (0.7, 0.7, 0.7)",
+            "reflectance: (0.7, 0.7)",
+        ),
+        (
+            "four numbers for a colour",
+            "reflectance: (0.7, 0.7, 0.7)",
+            "reflectance: (0.7, 0.7, 0.7, 1)",
+        ),
+        (
+            "a name for a channel",
+            "reflectance: (0.7, 0.7, 0.7)",
+            "reflectance: (0.7, \"wood\", 0.7)",
+        ),
+        (
+            "a sheet with an unknown side",
+            GOLD,
+            "TwoSided(front: \"white\", back: \"whit\")",
+        ),
+        ("a sheet of sheets", GOLD, "TwoSided(front: \"gold\", back: \"white\")"),
+        (
+            "a sheet with a clear side",
+            GOLD,
+            "TwoSided(front: \"white\", back: \"glass\")",
+        ),
+        ("a sheet with one side", GOLD, "TwoSided(front: \"white\")"),
         ("an empty name", "\"gold\"", "\"\""),
         ("an unused material", "material: \"gold\"", "material: \"white\""),
     ]);
@@ -329,6 +430,156 @@ fn mistakes_of_shapes() {
         ("no light", "emission: (17, 12, 4),", ""),
         ("black light", "emission: (17, 12, 4),", "emission: (0, 0, 0),"),
     ]);
+    insta::assert_snapshot!(report);
+}
+
+#[test]
+fn mistakes_of_round_shapes_and_height_fields() {
+    let ball = "Sphere(center: (0, 1, 0), radius: 2)";
+    let cases = [
+        ("a disk", "Disk(normal: (0, 2, 0), radius: 1)"),
+        ("a disk without a radius", "Disk(normal: (0, 1, 0), radius: 0)"),
+        ("a disk without a side", "Disk(normal: (0, 0, 0), radius: 1)"),
+        ("a disk whose normal is forgotten", "Disk(radius: 1)"),
+        ("a cylinder", "Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: 1)"),
+        (
+            "a cylinder without a length",
+            "Cylinder(from: (0, 1, 0), to: (0, 1, 0), radius: 1)",
+        ),
+        (
+            "a cylinder turned inside out",
+            "Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: -1)",
+        ),
+        (
+            "a cylinder too short for where it is",
+            "Cylinder(from: (1e6, 0, 0), to: (1e6, 1e-3, 0), radius: 1)",
+        ),
+        ("a torus", "Torus(major_radius: 2, minor_radius: 0.5)"),
+        (
+            "a torus that crosses itself",
+            "Torus(major_radius: 1, minor_radius: 1.5)",
+        ),
+        ("a torus without a tube", "Torus(major_radius: 1, minor_radius: 0)"),
+        (
+            "a torus without an axis",
+            "Torus(axis: (0, 0, 0), major_radius: 2, minor_radius: 0.5)",
+        ),
+        (
+            "a torus of two segments",
+            "Torus(major_radius: 2, minor_radius: 0.5, segments: (64, 2))",
+        ),
+        (
+            "a torus of too many segments",
+            "Torus(major_radius: 2, minor_radius: 0.5, segments: (100000, 8))",
+        ),
+        (
+            "a torus of too many segments in all",
+            "Torus(major_radius: 2, minor_radius: 0.5, segments: (16384, 16384))",
+        ),
+        (
+            "a height field",
+            "HeightField(heights: [[0, 1], [1, 2]], edge_u: (1, 0, 0), edge_v: (0, 0, -1))",
+        ),
+        ("no heights", "HeightField(edge_u: (1, 0, 0), edge_v: (0, 0, -1))"),
+        (
+            "heights twice",
+            "HeightField(file: \"h.png\", heights: [[0, 1], [1, 2]], edge_u: (1, 0, 0), edge_v: (0, 0, -1))",
+        ),
+        (
+            "ragged heights",
+            "HeightField(heights: [[0, 1], [1, 2, 3]], edge_u: (1, 0, 0), edge_v: (0, 0, -1))",
+        ),
+        (
+            "one row of heights",
+            "HeightField(heights: [[0, 1]], edge_u: (1, 0, 0), edge_v: (0, 0, -1))",
+        ),
+        (
+            "a height that is no number",
+            "HeightField(heights: [[0, 1], [1, NaN]], edge_u: (1, 0, 0), edge_v: (0, 0, -1))",
+        ),
+        (
+            "a height beyond the world",
+            "HeightField(heights: [[0, 1], [1, 5e9]], edge_u: (1, 0, 0), edge_v: (0, 0, -1))",
+        ),
+        (
+            "heights scaled beyond the world",
+            "HeightField(heights: [[0, 9], [1, 5]], edge_u: (1, 0, 0), edge_v: (0, 0, -1), height: 1e9)",
+        ),
+        (
+            "a height field without an area",
+            "HeightField(heights: [[0, 1], [1, 2]], edge_u: (1, 0, 0), edge_v: (-1, 0, 0))",
+        ),
+        (
+            "a file of heights that is not there",
+            "HeightField(file: \"h.png\", edge_u: (1, 0, 0), edge_v: (0, 0, -1))",
+        ),
+    ];
+    let cases: Vec<_> = cases.map(|(what, shape)| (what, ball, shape)).into();
+    let mut report = broken_ron(&cases);
+    let shear = "Scale((2, 1, 2))";
+    let made = RON.replace("Scale((2, 2, 2))", shear);
+    for (what, _, shape) in [cases[0], cases[4]] {
+        let text = made.replace(ball, shape);
+        let said = findings("scene.ron", &text, Format::Ron, Path::new(""));
+        report.push_str(&format!("{what} under {shear}\n  {said}\n"));
+    }
+    insta::assert_snapshot!(report);
+}
+
+#[test]
+fn mistakes_of_textures() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).expect("a file");
+    write("text.png", b"not a picture");
+    let mut small = Vec::new();
+    let texels = [image::Rgb([0.5, 0.5, 0.5]), image::Rgb([0.25, 2.0, 0.5])];
+    let encoded = image::codecs::hdr::HdrEncoder::new(&mut small).encode(&texels, 2, 1);
+    encoded.expect("encoded");
+    write("bright.hdr", &small);
+    write("cut.hdr", &small[..small.len() - 5]);
+    write("huge.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n");
+    let cases = [
+        ("a checkerboard", "\"t\": Checkerboard(scale: (8, 8))"),
+        ("a kind misspelt", "\"t\": Checkers()"),
+        ("a colour above one", "\"t\": Checkerboard(even: (1, 1.5, 1))"),
+        ("a scale that is no number", "\"t\": Checkerboard(scale: (NaN, 1))"),
+        ("a scale too large", "\"t\": Checkerboard(scale: (1, 1e9))"),
+        ("an empty name", "\"\": Checkerboard()"),
+        ("a name twice", "\"t\": Checkerboard(), \"t\": Checkerboard()"),
+        ("no file", "\"t\": Bitmap()"),
+        ("an empty file name", "\"t\": Bitmap(file: \"\")"),
+        ("a file that is not there", "\"t\": Bitmap(file: \"none.png\")"),
+        ("a folder for a file", "\"t\": Bitmap(file: \".\")"),
+        ("a file that is no picture", "\"t\": Bitmap(file: \"text.png\")"),
+        ("a file that ends too early", "\"t\": Bitmap(file: \"cut.hdr\")"),
+        ("a file that claims too much", "\"t\": Bitmap(file: \"huge.hdr\")"),
+        ("a texel above one", "\"t\": Bitmap(file: \"bright.hdr\")"),
+        (
+            "a linear file that is said to be sRGB",
+            "\"t\": Bitmap(file: \"bright.hdr\", encoding: Srgb)",
+        ),
+        (
+            "a texture that nothing uses",
+            "\"t\": Checkerboard(), \"unused\": Bitmap(file: \"none.png\")",
+        ),
+        ("another name", "\"tt\": Checkerboard()"),
+        ("a wrap misspelt", "\"t\": Bitmap(file: \"bright.hdr\", wrap: repeat)"),
+    ];
+    let mut report = String::new();
+    let place = format!("{}/", folder.path().display());
+    for (what, texture) in cases {
+        let text = RON
+            .replace(
+                "    materials: {",
+                &format!("    textures: {{{texture}}},\n    materials: {{"),
+            )
+            .replace(
+                "\"white\": Diffuse(reflectance: (0.7, 0.7, 0.7))",
+                "\"white\": Diffuse(reflectance: \"t\")",
+            );
+        let said = findings("scene.ron", &text, Format::Ron, folder.path()).replace(&place, "");
+        report.push_str(&format!("{what}\n  {}\n", said.replace('\n', "\n  ")));
+    }
     insta::assert_snapshot!(report);
 }
 

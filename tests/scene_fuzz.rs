@@ -8,6 +8,24 @@ use std::path::Path;
 
 const CASES: u32 = 400;
 
+/// What the scene that others break has not: cameras with a lens, textures, round shapes and height fields.
+const OTHER: &str = r#"(
+    version: 1,
+    camera: ThinLens(origin: (0, 1, 5), target: (0, 1, 0), fov: 40, aperture_radius: 0.1, focus_distance: 5),
+    film: (width: 16, height: 16),
+    textures: {"board": Checkerboard(even: (0.1, 0.2, 0.3), odd: (0.5, 0.5, 0.5), scale: (8, 4))},
+    materials: {"white": Diffuse(reflectance: "board")},
+    shapes: [
+        (shape: Disk(center: (0, 3, 0), normal: (0, -1, 0), radius: 1), material: "white", emission: (1, 1, 1)),
+        (shape: Cylinder(from: (0, 0, 0), to: (0, 2, 1), radius: 0.5), material: "white",
+            transform: [Scale((2, 2, 2)), Rotate(axis: (0, 1, 0), degrees: 15), Translate((1, 2, 3))]),
+        (shape: Torus(center: (0, 1, 0), axis: (1, 1, 0), major_radius: 2, minor_radius: 0.5, segments: (12, 6)), material: "white",
+            transform: [Matrix(((1, 2, 0, 0), (0, 4, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)))]),
+        (shape: HeightField(heights: [[0, 1, 2], [1, 0, -3]], corner: (0, 0, 0), edge_u: (1, 0, 0), edge_v: (0, 0, -1), height: 2),
+            material: "white"),
+    ],
+)"#;
+
 fn config() -> ProptestConfig {
     // Fixed seeds: the same cases in every run.
     let rng_seed = proptest::test_runner::RngSeed::Fixed(0x5ce7e);
@@ -256,6 +274,12 @@ proptest! {
     fn a_scene_with_odd_numbers_is_flattened_or_refused(ron in renumbered(RON), json in renumbered(JSON)) {
         exercise(&ron, Format::Ron, Path::new(""));
         exercise(&json, Format::Json, Path::new(""));
+    }
+
+    #[test]
+    fn other_scenes_mutated_or_with_odd_numbers_are_flattened_or_refused(ron in mutated(OTHER), odd in renumbered(OTHER)) {
+        exercise(&ron, Format::Ron, Path::new(""));
+        exercise(&odd, Format::Ron, Path::new(""));
     }
 
     #[test]

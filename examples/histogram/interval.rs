@@ -204,6 +204,7 @@ fn states() -> StateSystems {
             ),
         ],
         tables: vec![chains],
+        ..StateSystems::default()
     }
 }
 

@@ -186,6 +186,7 @@ pub fn start(seed: u64) -> Result<ChainRun> {
             ),
         ],
         tables: vec![chains],
+        ..StateSystems::default()
     };
     let counts = ChainCounts {
         groups: GROUPS,

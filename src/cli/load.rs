@@ -3,7 +3,7 @@
 use super::chains::ChainArgs;
 use super::output::note;
 use crate::path::mis::Heuristic;
-use crate::plan::{Plan, PlanOptions, Registry, Technique, UnknownTechnique};
+use crate::plan::{Base, Plan, PlanOptions, Registry, Technique, UnknownTechnique};
 use crate::scene::{
     FilterDescription, Scene, SceneOverrides, Step, description::MAX_DEPTH_LIMIT, description::MAX_FILM_PIXELS,
 };
@@ -43,6 +43,9 @@ pub struct SceneArgs {
 /// How techniques with both ends join subpaths.
 #[derive(Args, Clone, Debug, Default)]
 pub struct StrategyArgs {
+    /// What the chains of pssmlt run over: pt or bdpt
+    #[arg(long, value_name = "NAME", default_value_t)]
+    pub base: Base,
     /// The only strategy of bdpt to use, with weight one: S vertices from the light and T from the camera; for tests
     #[arg(long, value_name = "S,T", value_parser = parse_strategy)]
     pub strategy: Option<(u32, u32)>,
@@ -125,6 +128,7 @@ impl SceneArgs {
             tile_size: self.tile,
             chains: self.chains.settings()?,
             mutations,
+            base: self.strategies.base,
             strategy: self.strategies.strategy,
             heuristic: self.strategies.heuristic,
         };

@@ -126,3 +126,227 @@ fn around(normal: DVec3, frame: Mat3) -> (f64, DVec3) {
     let u = 0.5 + libm::atan2(right, towards) / TAU;
     (u, x * towards - z * right)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampling::{Purpose, Stream, StreamKey, warp};
+
+    fn geometry(shape: InstanceShape, frame: Mat3) -> Geometry {
+        Geometry {
+            instances: vec![Instance {
+                shape,
+                first_primitive: 0,
+            }],
+            frames: vec![frame],
+            ..Geometry::default()
+        }
+    }
+
+    fn hit(uv: DVec2) -> Hit {
+        Hit {
+            instance: 0,
+            primitive: 0,
+            uv,
+        }
+    }
+
+    fn stream(case: u32) -> Stream {
+        StreamKey::new(90, case, 0).stream(Purpose::SCATTER, 0)
+    }
+
+    /// A turned frame, mirrored or not.
+    fn frame(stream: &mut Stream, mirrored: bool) -> Mat3 {
+        let z = warp::uniform_sphere(stream.next_pair()).normalize();
+        let (x, y) = z.any_orthonormal_pair();
+        Mat3::from_cols(if mirrored { -x } else { x }, y, z)
+    }
+
+    /// That the tangent is where `position` goes as u grows, by differences, and at a right angle to `normal`.
+    fn check_tangent(point: TexturePoint, normal: DVec3, position: impl Fn(DVec2) -> DVec3) {
+        let (uv, step) = (point.uv.as_dvec2(), DVec2::new(1e-4, 0.0));
+        let along = (position(uv + step) - position(uv - step)).normalize();
+        let tangent = point.tangent.as_dvec3();
+        assert!(tangent.distance(along) < 1e-3, "{point:?}: {along}");
+        assert!(
+            tangent.dot(normal).abs() < 1e-6 && (tangent.length() - 1.0).abs() < 1e-6,
+            "{point:?}"
+        );
+    }
+
+    #[test]
+    fn spheres_are_textured_like_globes() {
+        let mut stream = stream(0);
+        for case in 0..2000 {
+            let frame = frame(&mut stream, case % 2 == 0);
+            let shape = InstanceShape::Sphere {
+                center: Vec3::ZERO,
+                radius: 2.0,
+            };
+            let geometry = geometry(shape, frame);
+            let normal = warp::uniform_sphere(stream.next_pair()).as_dvec3().normalize();
+            let point = geometry.texture_point(hit(octahedral::encode(normal)));
+            // Longitude and latitude back to the direction.
+            let position = |uv: DVec2| {
+                let (longitude, latitude) = (TAU * (uv.x - 0.5), std::f64::consts::PI * (uv.y - 0.5));
+                let (sine, cosine) = (libm::sin(latitude), libm::cos(latitude));
+                let local = DVec3::new(cosine * libm::sin(longitude), sine, cosine * libm::cos(longitude));
+                frame.as_dmat3() * local
+            };
+            assert!(
+                position(point.uv.as_dvec2()).distance(normal) < 2e-6,
+                "{point:?} for {normal}"
+            );
+            if point.uv.y > 0.01 && point.uv.y < 0.99 {
+                check_tangent(point, normal, position);
+            }
+        }
+    }
+
+    #[test]
+    fn the_poles_of_a_sphere_have_no_tangent_and_exact_latitudes() {
+        let shape = InstanceShape::Sphere {
+            center: Vec3::ONE,
+            radius: 1.0,
+        };
+        let geometry = geometry(shape, Mat3::IDENTITY);
+        for (normal, v) in [(DVec3::Y, 1.0), (DVec3::NEG_Y, 0.0)] {
+            let point = geometry.texture_point(hit(octahedral::encode(normal)));
+            assert_eq!((point.uv.y, point.tangent), (v, Vec3::ZERO));
+        }
+        // As near to the pole as f64 tells: still a direction.
+        let beside = DVec3::new(0.0, 1.0, 1e-9).normalize();
+        let point = geometry.texture_point(hit(octahedral::encode(beside)));
+        assert!(
+            point.tangent.distance(Vec3::X) < 1e-6 && (point.uv.x - 0.5).abs() < 1e-6,
+            "{point:?}"
+        );
+    }
+
+    #[test]
+    fn the_seam_of_a_sphere_runs_where_its_shape_says() {
+        let shape = InstanceShape::Sphere {
+            center: Vec3::ZERO,
+            radius: 1.0,
+        };
+        let geometry = geometry(shape, Mat3::IDENTITY);
+        let u = |x: f64, z: f64| {
+            geometry
+                .texture_point(hit(octahedral::encode(DVec3::new(x, 0.0, z))))
+                .uv
+                .x
+        };
+        assert_eq!(u(0.0, 1.0), 0.5);
+        assert_eq!((u(1.0, 0.0), u(-1.0, 0.0)), (0.75, 0.25));
+        assert!(u(1e-6, -1.0) > 0.999_999 && u(-1e-6, -1.0) < 1e-6);
+    }
+
+    #[test]
+    fn disks_and_tubes_are_textured_by_their_axes() {
+        let mut stream = stream(1);
+        for case in 0..2000 {
+            let frame = frame(&mut stream, case % 2 == 0);
+            let wide = frame.as_dmat3();
+            let shape = InstanceShape::Disk {
+                center: Vec3::ZERO,
+                normal: frame.z_axis,
+                radius: 3.0,
+            };
+            let on_disk = warp::disk(stream.next_pair()).as_dvec2();
+            let point = geometry(shape, frame).texture_point(hit(on_disk));
+            let [normal, x, y] = disk::basis(frame.z_axis);
+            let position = |uv: DVec2| wide.x_axis * (2.0 * uv.x - 1.0) + wide.y_axis * (2.0 * uv.y - 1.0);
+            let expected = x * on_disk.x + y * on_disk.y;
+            assert!(position(point.uv.as_dvec2()).distance(expected) < 1e-6, "{point:?}");
+            check_tangent(point, normal, position);
+
+            let (from, to) = (Vec3::ONE, Vec3::ONE + frame.y_axis * 5.0);
+            let shape = InstanceShape::Cylinder { from, to, radius: 3.0 };
+            let around = DVec2::new(f64::from(stream.next_f32()) * 4.0, stream.next_f64());
+            let point = geometry(shape, frame).texture_point(hit(around));
+            let [_, x, y] = cylinder::basis(from, to);
+            let at = cylinder::direction(around.x);
+            let normal = x * at.x + y * at.y;
+            let position = |uv: DVec2| {
+                let angle = TAU * (uv.x - 0.5);
+                wide.x_axis * libm::sin(angle) + wide.z_axis * libm::cos(angle)
+            };
+            assert!(
+                position(point.uv.as_dvec2()).distance(normal) < 2e-6,
+                "{point:?} for {normal}"
+            );
+            assert!((f64::from(point.uv.y) - around.y).abs() < 1e-7);
+            check_tangent(point, normal, position);
+        }
+    }
+
+    #[test]
+    fn meshes_are_textured_by_their_vertices() {
+        let mut stream = stream(2);
+        for case in 0..2000 {
+            let mut corner = || warp::uniform_sphere(stream.next_pair());
+            let (positions, normal) = (vec![corner(), corner(), corner()], corner());
+            let cross = (positions[1] - positions[0]).cross(positions[2] - positions[0]);
+            if cross.length() < 0.2 {
+                continue;
+            }
+            let mut number = || Vec2::from_array(stream.next_pair());
+            let uvs = vec![number(), number(), number()];
+            let extent = (uvs[1] - uvs[0]).perp_dot(uvs[2] - uvs[0]);
+            let smooth = case % 2 == 0 && normal.dot(cross.normalize()) > 0.3;
+            let shading = if smooth { normal.normalize() } else { cross.normalize() };
+            let shape = InstanceShape::Mesh {
+                first_triangle: 0,
+                triangle_count: 1,
+                first_vertex: 0,
+                first_normal: smooth.then_some(0),
+                first_uv: Some(0),
+            };
+            let geometry = Geometry {
+                positions: positions.clone(),
+                normals: if smooth { vec![shading; 3] } else { Vec::new() },
+                uvs: uvs.clone(),
+                triangles: vec![[0, 1, 2]],
+                ..geometry(shape, Mat3::IDENTITY)
+            };
+            let point = geometry.texture_point(hit(DVec2::new(0.25, 0.5)));
+            let expected = uvs[0] * 0.25 + uvs[1] * 0.25 + uvs[2] * 0.5;
+            assert!(point.uv.distance(expected) < 1e-6);
+            if extent.abs() < 0.05 {
+                continue;
+            }
+            // From texture coordinates to weights to positions, flattened onto the shading plane.
+            let wide: Vec<DVec3> = positions.iter().map(|p| p.as_dvec3()).collect();
+            let texture = glam::DMat2::from_cols((uvs[1] - uvs[0]).as_dvec2(), (uvs[2] - uvs[0]).as_dvec2());
+            let normal = shading.as_dvec3().normalize();
+            check_tangent(point, normal, |uv| {
+                let weights = texture.inverse() * (uv - uvs[0].as_dvec2());
+                let p = (wide[1] - wide[0]) * weights.x + (wide[2] - wide[0]) * weights.y;
+                p - normal * normal.dot(p)
+            });
+        }
+    }
+
+    #[test]
+    fn triangles_without_extent_on_the_texture_have_no_tangent() {
+        let shape = |first_uv| InstanceShape::Mesh {
+            first_triangle: 0,
+            triangle_count: 1,
+            first_vertex: 0,
+            first_normal: None,
+            first_uv,
+        };
+        let geometry = |first_uv, uvs: [Vec2; 3]| Geometry {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            uvs: uvs.to_vec(),
+            triangles: vec![[0, 1, 2]],
+            ..geometry(shape(first_uv), Mat3::IDENTITY)
+        };
+        let at = hit(DVec2::new(0.25, 0.25));
+        for uvs in [[Vec2::splat(0.3); 3], [Vec2::ZERO, Vec2::ONE, Vec2::splat(0.25)]] {
+            let point = geometry(Some(0), uvs).texture_point(at);
+            assert!(point.tangent == Vec3::ZERO && point.uv.is_finite(), "{point:?}");
+        }
+        assert_eq!(geometry(None, [Vec2::ONE; 3]).texture_point(at), TexturePoint::NONE);
+    }
+}

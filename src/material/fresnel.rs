@@ -40,9 +40,18 @@ pub fn dielectric_exact(cos_incident: f64, relative_ior: f64) -> (f64, f64) {
         return (1.0, 0.0);
     }
     let ct = (1.0 - sin2_t).sqrt();
+    (dielectric_between(ci, ct, n), ct)
+}
+
+/// Reflectance for directions on both sides that Snell's law connects: near the critical angle the cosine behind, if it is
+/// known, says more about what passes than the one before.
+#[inline]
+#[must_use]
+pub fn dielectric_between(cos_incident: f64, cos_transmitted: f64, relative_ior: f64) -> f64 {
+    let (ci, ct, n) = (cos_incident, cos_transmitted, relative_ior);
     let perpendicular = (ci - n * ct) / (ci + n * ct);
     let parallel = (n * ci - ct) / (n * ci + ct);
-    (0.5 * (perpendicular * perpendicular + parallel * parallel), ct)
+    0.5 * (perpendicular * perpendicular + parallel * parallel)
 }
 
 /// Share of diffuse light that an interface reflects: the mean of its reflectance over a hemisphere, weighted with the

@@ -62,6 +62,13 @@ impl RoughDielectric {
         }
     }
 
+    /// Index of the far side over that of the near side; the two are reciprocal beyond `f32`, and so are values.
+    #[inline]
+    fn index(&self, over: bool) -> f64 {
+        let index = f64::from(self.relative_ior);
+        if over { 1.0 / index } else { index }
+    }
+
     /// Light between equal indices.
     fn straight_through(&self, wi: Vec3) -> Scattered {
         Scattered {
@@ -97,12 +104,7 @@ impl Model for RoughDielectric {
             return Some(self.straight_through(wi));
         }
         let over = wi.z < 0.0;
-        let relative_ior = if over {
-            1.0 / self.relative_ior
-        } else {
-            self.relative_ior
-        };
-        let (i, index) = (above(wi, over), f64::from(relative_ior));
+        let (i, index) = (above(wi, over), self.index(over));
         let h = self.microfacets.sample_visible(i, draw.direction);
         let cosine = i.dot(h);
         if cosine <= 0.0 {
@@ -138,7 +140,7 @@ impl Model for RoughDielectric {
             density: refracted.density as f32,
             reverse: refracted.reverse as f32,
             discrete: false,
-            relative_ior,
+            relative_ior: index as f32,
         }
         .if_representable()
     }
@@ -149,12 +151,7 @@ impl Model for RoughDielectric {
             return Evaluated::ZERO;
         }
         let over = wi.z < 0.0;
-        let relative_ior = if over {
-            1.0 / self.relative_ior
-        } else {
-            self.relative_ior
-        };
-        let (i, o, index) = (above(wi, over), above(wo, over), f64::from(relative_ior));
+        let (i, o, index) = (above(wi, over), above(wo, over), self.index(over));
         if o.z > 0.0 {
             let h = (i + o).normalize();
             let (reflectance, _) = fresnel::dielectric_exact(i.dot(h), index);
@@ -175,8 +172,8 @@ impl Model for RoughDielectric {
         if cosine <= 0.0 || behind >= 0.0 {
             return Evaluated::ZERO;
         }
-        let (reflectance, _) = fresnel::dielectric_exact(cosine, index);
-        let refracted = self.refracted([i, o, h], index, 1.0 - reflectance, length);
+        let passed = 1.0 - fresnel::dielectric_between(cosine, -behind, index);
+        let refracted = self.refracted([i, o, h], index, passed, length);
         let value = refracted.density * refracted.ratio * radiance_scale(index, transport);
         Evaluated {
             value: self.transmittance * value as f32,

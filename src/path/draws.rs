@@ -36,6 +36,14 @@ pub trait PathDraws {
     fn roulette(&mut self, depth: u32) -> f32;
 }
 
+/// Marks the depths of light subpaths where draws are keyed by them; no path is as long.
+pub const LIGHT_SUBPATH: u32 = 1 << 16;
+
+/// Whether roulette is played after the vertex whose draws are keyed by `depth`.
+const fn plays_roulette(depth: u32) -> bool {
+    depth & !LIGHT_SUBPATH >= roulette::FIRST_DEPTH
+}
+
 /// Numbers from keyed streams: independent from step to step.
 #[derive(Clone, Copy, Debug)]
 pub struct KeyedDraws(pub StreamKey);
@@ -180,7 +188,7 @@ impl VertexCoordinates {
         let scatter = [stream.next_u32(), stream.next_u32()];
         let choice = stream.next_u64();
         let light = [stream.next_u32(), stream.next_u32()];
-        let plays = depth >= roulette::FIRST_DEPTH;
+        let plays = plays_roulette(depth);
         Self {
             choice,
             light,
@@ -197,7 +205,7 @@ impl VertexCoordinates {
         let mut stream = key.stream(Purpose::PERTURB, depth);
         // Eight steps fill the lanes that seven need.
         let steps = kernel.steps::<8>(std::array::from_fn(|i| if i < 7 { stream.next_u32() } else { 0 }));
-        let plays = depth >= roulette::FIRST_DEPTH;
+        let plays = plays_roulette(depth);
         Self {
             scatter: [0, 1].map(|i| steps.narrow(i, self.scatter[i])),
             choice: steps.wide(2, self.choice),
@@ -214,7 +222,7 @@ impl VertexCoordinates {
         let scatter = self.scatter.map(|c| kernel.uniform_in_support(c, stream.next_u32()));
         let choice = kernel.uniform_in_support_wide(self.choice, stream.next_u32());
         let light = self.light.map(|c| kernel.uniform_in_support(c, stream.next_u32()));
-        let plays = depth >= roulette::FIRST_DEPTH;
+        let plays = plays_roulette(depth);
         Self {
             choice,
             light,
@@ -238,7 +246,7 @@ impl VertexCoordinates {
         if set.lights {
             sum += kernel.log_density_wide(self.choice, to.choice) + narrow(self.light, to.light);
         }
-        if depth >= roulette::FIRST_DEPTH {
+        if plays_roulette(depth) {
             sum += kernel.log_density(self.roulette, to.roulette);
         }
         if set.lobes {
@@ -250,9 +258,7 @@ impl VertexCoordinates {
     /// How many coordinates the vertex at `depth` has.
     #[must_use]
     pub const fn count(depth: u32, set: CoordinateSet) -> u32 {
-        2 + if set.lights { 3 } else { 0 }
-            + if depth >= roulette::FIRST_DEPTH { 1 } else { 0 }
-            + if set.lobes { 1 } else { 0 }
+        2 + if set.lights { 3 } else { 0 } + if plays_roulette(depth) { 1 } else { 0 } + if set.lobes { 1 } else { 0 }
     }
 
     /// The numbers that connect to a light.

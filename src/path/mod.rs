@@ -15,7 +15,9 @@ mod scatterer;
 mod states;
 
 pub use columns::*;
-pub use draws::{CoordinateSet, FilmCoordinates, KeyedDraws, LENS_CENTER, LightDraw, PathDraws, VertexCoordinates};
+pub use draws::{
+    CoordinateSet, FilmCoordinates, KeyedDraws, LENS_CENTER, LIGHT_SUBPATH, LightDraw, PathDraws, VertexCoordinates,
+};
 pub use film_position::{film_position, pixel_of};
 pub use primary::*;
 pub use scatterer::{Connection, Scatterer};

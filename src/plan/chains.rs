@@ -4,7 +4,7 @@ use super::effect::EffectPlan;
 use super::mutation::{MAX_MUTATIONS, MutationPlan, Registry, StateSpace};
 use super::system::SystemPlan;
 use super::table::{Extent, TableId, TablePlan};
-use super::tile::TilePlan;
+use super::tile::{Subpaths, TilePlan};
 use crate::chain::{
     Acceptance, AcceptedList, BootstrapWeight, ChosenMutation, Class, CommonDensity, ForwardDensity, KeyChain,
     LongestRejections, MutationList, ProposedClass, ProposedTarget, Rejections, ReverseDensity, Target,
@@ -117,6 +117,10 @@ pub enum ChainPlanError {
         /// The state space.
         space: &'static str,
     },
+    /// Chains over bidirectional path tracing are staged only.
+    #[error("pssmlt-reference runs over pt alone")]
+    #[diagnostic(help("leave --base out, or use pssmlt"))]
+    Base,
     /// A mutation that only systems of the staged trace loop can run.
     #[error("`{mutation}` cannot run one chain after another")]
     #[diagnostic(help("switch it off with {mutation}:weight=0, or use pssmlt"))]
@@ -140,6 +144,8 @@ pub struct StateSystems {
     pub systems: Vec<SystemPlan>,
     /// Tables. The first is the chain table, to which the core adds its columns.
     pub tables: Vec<TablePlan>,
+    /// The subpaths of each chain, where states are paths of light.
+    pub subpaths: Subpaths,
 }
 
 /// The mutations that a plan takes from `registry`: those of `space` that are ever tried, and the one that draws seeds.
@@ -194,7 +200,11 @@ pub fn chain_tile(
     densities: bool,
     size: Option<u32>,
 ) -> TilePlan {
-    let StateSystems { systems, mut tables } = states;
+    let StateSystems {
+        systems,
+        mut tables,
+        subpaths,
+    } = states;
     if tables.is_empty() {
         tables.push(TablePlan::new(TableId::CHAINS, Extent::PerChain(1)));
     }
@@ -213,7 +223,7 @@ pub fn chain_tile(
     all.extend(core_after(selective || densities));
     // No tile has chains of two groups.
     let whole_group = counts.chains.next_multiple_of(LANES as u32);
-    let mut tile = TilePlan::new(all, tables, size);
+    let mut tile = TilePlan::with_subpaths(subpaths, all, tables, size);
     if tile.size > whole_group {
         tile.resize(whole_group, "a whole group".to_owned());
     }

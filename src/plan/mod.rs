@@ -25,7 +25,7 @@ pub use mutation::{
 pub use support::{Region, Support};
 pub use system::{InPlan, JoinStep, Phases, Place, Repeated, Stage, SystemPlan, SystemSpec, TraceStep, Traces};
 pub use table::{ColumnPlan, Extent, TableId, TablePlan};
-pub use technique::{Technique, UnknownTechnique};
+pub use technique::{Base, Technique, UnknownTechnique};
 pub use tile::{Subpaths, TilePlan};
 
 use crate::film::{Film, GroupFilm};
@@ -43,6 +43,8 @@ pub struct PlanOptions {
     pub chains: ChainSettings,
     /// The mutations there are, with their settings.
     pub mutations: Registry,
+    /// What primary-sample-space chains run over.
+    pub base: Base,
     /// The only strategy (s, t) of bidirectional path tracing to use, with weight one, instead of all: for tests.
     pub strategy: Option<(u32, u32)>,
     /// How weights are made of densities, where strategies share paths.
@@ -55,6 +57,7 @@ impl Default for PlanOptions {
             tile_size: None,
             chains: ChainSettings::default(),
             mutations: crate::systems::propose::mutations(),
+            base: Base::default(),
             strategy: None,
             heuristic: Heuristic::default(),
         }
@@ -163,10 +166,23 @@ impl Plan {
                 strategies = Some(both.strategies);
                 TilePlan::with_subpaths(both.subpaths, both.systems(), both.tables(), options.tile_size)
             }
+            Technique::Pssmlt | Technique::PssmltReference if options.base == Base::Bdpt => {
+                if technique == Technique::PssmltReference {
+                    return Err(ChainPlanError::Base);
+                }
+                let mutations = choose_mutations(&options.mutations, StateSpace::PRIMARY, &effects)?;
+                let counts = options.chains.counts(scene.pixel_count());
+                let both = both_ends(scene, &effects, technique, options);
+                strategies = Some(both.strategies);
+                let states = pssmlt::over_bidirectional(&both);
+                let tile = chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size);
+                chains = Some(ChainPlan { counts, mutations });
+                tile
+            }
             Technique::Pssmlt | Technique::PssmltReference => {
                 let mutations = choose_mutations(&options.mutations, StateSpace::PRIMARY, &effects)?;
                 let counts = options.chains.counts(scene.pixel_count());
-                let states = pssmlt::states(scene, &effects);
+                let states = pssmlt::over_path_tracing(scene, &effects);
                 let tile = if technique == Technique::Pssmlt {
                     chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size)
                 } else {

@@ -23,6 +23,44 @@ pub enum Technique {
     PssmltReference,
 }
 
+/// What primary-sample-space chains run over: which light a list of numbers stands for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Base {
+    /// A path of path tracing.
+    #[default]
+    Pt,
+    /// A pair of subpaths, joined in every way.
+    Bdpt,
+}
+
+impl Base {
+    /// The name on the command line and in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Pt => "pt",
+            Self::Bdpt => "bdpt",
+        }
+    }
+}
+
+impl fmt::Display for Base {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Base {
+    type Err = &'static str;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        [Self::Pt, Self::Bdpt]
+            .into_iter()
+            .find(|base| base.name() == name)
+            .ok_or("expected pt or bdpt")
+    }
+}
+
 /// No technique has this name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no technique `{name}`; techniques are {}{}", names(), hint(.nearest))]

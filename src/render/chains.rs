@@ -13,7 +13,7 @@ use crate::stats::error::PictureError;
 use crate::stats::group_means::GroupMeans;
 use crate::systems::SystemCost;
 use crate::systems::chains::ProposalCount;
-use crate::systems::tile::{Counters, FilmBlocks, GroupFilmRef, SceneRef};
+use crate::systems::tile::{Counters, FilmBlocks, GroupFilmRef, SceneRef, StrategiesRef};
 use bevy_ecs::world::World;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex};
@@ -79,7 +79,7 @@ impl ChainRender {
             .collect::<Result<Vec<_>, FilmError>>()?;
         let blocks = Arc::new(state_blocks(&scene));
         let run = ChainRun::new(plan.tile.clone(), chains, seed, threads, |world, group| {
-            insert_light(world, &scene, &blocks);
+            insert_light(world, &scene, &blocks, &plan);
             world.insert_resource(GroupFilmRef(Arc::clone(&films[group])));
         })?;
         Ok(Self {
@@ -199,8 +199,11 @@ pub(super) fn state_blocks(scene: &Scene) -> BlockGrid {
 }
 
 /// Inserts what chains of light read beside the core and the film.
-pub(super) fn insert_light(world: &mut World, scene: &Arc<Scene>, blocks: &Arc<BlockGrid>) {
+pub(super) fn insert_light(world: &mut World, scene: &Arc<Scene>, blocks: &Arc<BlockGrid>, plan: &Plan) {
     world.insert_resource(SceneRef(Arc::clone(scene)));
+    if let Some(strategies) = plan.strategies {
+        world.insert_resource(StrategiesRef(strategies));
+    }
     world.insert_resource(FilmBlocks(Arc::clone(blocks)));
 }
 

@@ -12,8 +12,8 @@ use crate::plan::{ChainPlan, Plan, TilePlan};
 use crate::scene::Scene;
 use crate::systems::Run;
 use crate::systems::chains::Mutations;
-use crate::systems::list::{SPLAT_SAMPLES, SPLAT_STATES};
-use crate::systems::tile::SceneRef;
+use crate::systems::list::{SPLAT_LISTS, SPLAT_SAMPLES, SPLAT_STATES};
+use crate::systems::tile::{SceneRef, StrategiesRef};
 use bevy_ecs::world::World;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -100,6 +100,9 @@ impl LoneChain {
 fn of_samples(scene: &Arc<Scene>, plan: &Plan, seed: u64) -> TileWorld {
     TileWorld::new(&for_one_chain(&plan.tile), seed, |world| {
         world.insert_resource(SceneRef(Arc::clone(scene)));
+        if let Some(strategies) = plan.strategies {
+            world.insert_resource(StrategiesRef(strategies));
+        }
     })
 }
 
@@ -115,7 +118,7 @@ fn of_chains(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<(TileWorld, LoneStart), RenderError> {
     let blocks = Arc::new(state_blocks(scene));
-    let insert = |world: &mut World, _: usize| insert_light(world, scene, &blocks);
+    let insert = |world: &mut World, _: usize| insert_light(world, scene, &blocks, plan);
     let counts = chains.counts;
     let group = chain / counts.chains;
     let mut run = ChainRun::of_groups(
@@ -156,6 +159,6 @@ fn of_chains(
 fn for_one_chain(tile: &TilePlan) -> TilePlan {
     let mut tile = tile.clone().for_one_chain();
     tile.systems
-        .retain(|system| ![SPLAT_SAMPLES, SPLAT_STATES].contains(&system.spec));
+        .retain(|system| ![SPLAT_SAMPLES, SPLAT_LISTS, SPLAT_STATES].contains(&system.spec));
     tile
 }

@@ -254,3 +254,29 @@ impl Tables {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::testing::scene_of;
+    use crate::scene::{Format, flatten, parse_scene};
+    use std::path::Path;
+
+    fn compiled(reflectance: &str) -> Geometry {
+        let shapes = "Box(min: (0, 0, 0), max: (1, 1, 1)), material: \"white\"), (shape: Sphere(radius: 1)";
+        let text = scene_of(shapes, "").replace("reflectance: (0.5, 0.5, 0.5)", reflectance);
+        let text = text.replace("materials:", "textures: {\"board\": Checkerboard()}, materials:");
+        let source = parse_scene("test.ron", &text, Format::Ron, Path::new("")).expect("a scene");
+        let flattened = flatten(&source).expect("shapes");
+        let scene = Scene::compile(&source.description, &flattened, SceneOverrides::default());
+        scene.expect("the box filter can be sampled").geometry
+    }
+
+    #[test]
+    fn texture_coordinates_are_kept_only_where_a_material_asks_for_them() {
+        let plain = compiled("reflectance: (0.5, 0.5, 0.5)");
+        assert!(plain.uvs.is_empty() && plain.frames.is_empty());
+        let textured = compiled("reflectance: \"board\"");
+        assert_eq!((textured.uvs.len(), textured.frames.len()), (24, 2));
+    }
+}

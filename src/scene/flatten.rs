@@ -31,7 +31,7 @@ pub struct Flattened {
     pub materials: Vec<(String, MaterialDescription)>,
     /// Name and kind of every light of the `lights` block, in its order; the names are `lights[2] (Sun)`.
     pub lights: Vec<(String, Light)>,
-    /// Name and texture of every texture, in the order of their names.
+    /// Name and texture of every texture that materials of shapes refer to, in the order of their names.
     pub textures: Vec<(String, Arc<Texture>)>,
     /// What renders, but probably not as meant.
     pub warnings: Vec<SceneWarning>,
@@ -169,11 +169,7 @@ impl Emission {
 pub fn flatten(source: &SceneSource) -> Result<Flattened, SceneError> {
     let mut warnings = validate(source)?;
     let scene = &source.description;
-    let mut textures = Vec::with_capacity(scene.textures.len());
-    for (name, texture) in &scene.textures {
-        let at = At::root(source).key("textures").key(name);
-        textures.push((name.clone(), Arc::new(textures::load(&at, texture)?)));
-    }
+    let textures = textures::load_used(source, &mut warnings)?;
     let mut materials = Materials::new(scene);
     let shapes = At::root(source).key("shapes");
     let mut instances = Vec::with_capacity(scene.shapes.len());
@@ -185,6 +181,19 @@ pub fn flatten(source: &SceneSource) -> Result<Flattened, SceneError> {
         if primitives > MAX_PRIMITIVES {
             let message = format!("with this shape the scene has more than {MAX_PRIMITIVES} primitives");
             return Err(at.error(message, "use coarser meshes"));
+        }
+        let is_bare = matches!(&instance.geometry, Geometry::Mesh(mesh) if mesh.uvs.is_empty());
+        if is_bare
+            && shape
+                .material
+                .as_ref()
+                .is_some_and(|name| !textures::named_by(scene, name).is_empty())
+        {
+            let message = "this mesh has no texture coordinates (`vt`): its material shows one point of its texture";
+            warnings.push(
+                at.key("material")
+                    .warning(message, "give the mesh some, or the shape a plain material"),
+            );
         }
         instances.push(instance);
     }

@@ -57,20 +57,38 @@
 //! | `materials` | `Diffuse`, `Conductor`, `RoughConductor`, `Dielectric`, `RoughDielectric`, `Plastic`, `TwoSided`, by name | [`MaterialDescription`] |
 //! | `lights` | a list of `Point`, `Spot`, `Directional`, `Environment`, `Sun`, `Sky` | [`LightDescription`] |
 //! | `shapes` | a list of `name` (none), `shape`, `material`, `emission` (none), `transform` (none) | [`ShapeDescription`] |
-//! | shapes | `Quad`, `Box`, `Sphere`, `Obj` | [`ShapeKind`] |
+//! | shapes | `Quad`, `Box`, `Sphere`, `Disk`, `Cylinder`, `Torus`, `HeightField`, `Obj` | [`ShapeKind`] |
 //! | transforms | `Translate((x, y, z))`, `Scale((x, y, z))`, `Rotate(axis, degrees)`, `Matrix((row, row, row, row))` | [`TransformStep`] |
 //!
 //! In brackets: the default. What has none is required.
 //!
 //! # Sides and transforms
 //!
-//! Every surface has a geometric normal: a quad's is `edge_u` x `edge_v`; a box's and a sphere's point outward; a mesh's
-//! is on the side from which its triangles are counter-clockwise. `emission` leaves on that side alone. It is the
+//! Every surface has a geometric normal: a quad's and a height field's are on the side of `edge_u` x `edge_v`; a disk has its
+//! own; those of a box, a sphere, a cylinder and a torus point outward; a mesh's is on the side from which its triangles are counter-clockwise. `emission` leaves on that side alone. It is the
 //! exterior of a `Dielectric`. Materials with `two_sided: true`, which is the default, shade both sides alike.
 //!
 //! Transforms apply in the order listed, about the origin of the world. Those that mirror keep normals on the side of the
-//! surface where they were: boxes and spheres stay outward, and a mesh's triangles are turned over. A sphere's transform
-//! must scale all lengths alike, within a relative tolerance of 1e-4 ([`SIMILARITY_TOLERANCE`](transform::SIMILARITY_TOLERANCE)).
+//! surface where they were: closed shapes stay outward, and a mesh's triangles are turned over. The transform of a sphere, a
+//! disk or a cylinder, which are exact and no triangles, must scale all lengths alike, within a relative tolerance of 1e-4 ([`SIMILARITY_TOLERANCE`](transform::SIMILARITY_TOLERANCE)).
+//!
+//! # Textures
+//!
+//! A material's colour is three numbers, or the name of a texture: `reflectance: "wood"`. Textures are looked up at the
+//! texture coordinates of the surface: u to the right, v up, the picture's lower left corner at (0, 0). Where shapes have
+//! theirs:
+//!
+//! | shape | u | v |
+//! |---|---|---|
+//! | `Quad`, `HeightField` | along `edge_u`, in [0, 1] | along `edge_v` |
+//! | `Box` | over each face to the right, as seen from outside | up each face; towards -z on top, towards +z below |
+//! | `Sphere` | around its y axis, to the right as seen from outside; the middle towards +z | from -y to +y, in equal angles |
+//! | `Disk` | over the square around it, to the right as seen from its front | up that square: towards +y, or -z where it lies flat |
+//! | `Cylinder` | around it, to the right as seen from outside with `to` above; the middle towards +z (+x if it runs along z) | from `from` to `to` |
+//! | `Torus` | around its axis, as a cylinder | around the tube: from the inside over the bottom to the outside, and over the top |
+//! | `Obj` | `vt` | `vt` |
+//!
+//! Textures turn with the transforms of their shapes. Values of a texture are shares of light, from 0 to 1.
 //!
 //! # Meshes
 //!

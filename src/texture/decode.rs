@@ -5,7 +5,7 @@ use super::srgb;
 use crate::color::Rgb;
 use crate::film::decode_exr;
 use crate::scene::TextureEncoding;
-use image::{DynamicImage, ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 
 /// The most texels of a picture: 8192 x 8192.
@@ -40,13 +40,13 @@ pub fn decode(bytes: &[u8], encoding: TextureEncoding) -> Result<Picture, String
         refuse_srgb("a Radiance HDR file")?;
     }
     let reader = || ImageReader::with_format(Cursor::new(bytes), format);
-    let (width, height) = reader().into_dimensions().map_err(|error| error.to_string())?;
+    let (width, height) = reader().into_dimensions().map_err(in_words)?;
     check_size(width, height)?;
     let mut reader = reader();
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_DECODER_BYTES);
     reader.limits(limits);
-    let image = reader.decode().map_err(|error| error.to_string())?;
+    let image = reader.decode().map_err(in_words)?;
     let (width, height) = (image.width() as usize, image.height() as usize);
     let encoded = encoding != TextureEncoding::Linear;
     match rows(image)? {
@@ -57,6 +57,16 @@ pub fn decode(bytes: &[u8], encoding: TextureEncoding) -> Result<Picture, String
             Picture::linear(width, height, colors.collect())
         }
         Rows::Floats(colors) => Picture::linear(width, height, colors),
+    }
+}
+
+/// A decoder's complaint.
+fn in_words(error: ImageError) -> String {
+    match error {
+        ImageError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            "it ends too early".to_owned()
+        }
+        other => other.to_string(),
     }
 }
 

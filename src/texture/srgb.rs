@@ -28,7 +28,7 @@ mod tests {
         // From the standard's formula, in arithmetic of 30 digits.
         for (code, value) in [
             (0, 0.0),
-            (1, 0.000_303_526_98),
+            (1, 0.000_303_527),
             (10, 0.003_035_269_8),
             (11, 0.003_346_536),
             (55, 0.038_204_37),

@@ -25,10 +25,12 @@ pub fn take_coordinates(
     for entry in 0..queues.accepted {
         let chain = accepted.at(entry) as usize;
         current_film.put(chain, film.at(chain));
-        let depth = proposed_depths.at(chain);
-        depths.put(chain, depth);
-        for vertex in (0..depth).map(|d| place.vertex(chain, d)) {
-            current.put(vertex, proposed.at(vertex));
+        for path in place.subpaths(chain) {
+            let depth = proposed_depths.at(path);
+            depths.put(path, depth);
+            for vertex in (place.first_coordinate..=depth).map(|d| place.coordinate(path, d)) {
+                current.put(vertex, proposed.at(vertex));
+            }
         }
     }
 }

@@ -5,19 +5,15 @@
 //! |---|---|---|
 //! | `weight` | how often it is tried, relative to the other mutations | 0: not at all |
 
-use super::super::chains::{Keys, MutationLists};
+use super::super::chains::MutationLists;
 use super::super::list::{DRAW_IDENTITIES, PROPOSE_IDENTITIES};
-use super::super::tile::{Queues, TilePlace};
-use super::super::trace::draws::{CoordinatesMut, CurrentCoordinates};
+use super::drawing::{Drawing, Drawn};
 use super::proposal::Proposals;
-use crate::chain::{ChosenMutation, MutationList};
-use crate::path::{
-    ChainTable, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth, ProposedPrimaryTable,
-    VertexCoordinates,
-};
+use crate::chain::MutationList;
+use crate::path::{ChainTable, FilmCoordinates, PrimaryFilm, VertexCoordinates};
 use crate::plan::{MovesVertices, Mutation, Registered, StateSpace, Support, SystemPlan};
 use crate::sampling::StreamKey;
-use crate::table::{Read, Rows, Write};
+use crate::table::{Read, Rows};
 use bevy_ecs::system::Res;
 use serde::{Deserialize, Serialize};
 
@@ -83,36 +79,9 @@ pub fn propose_identities(
 }
 
 /// Copies the coordinates of the vertices of chains that stay where they are.
-pub fn draw_identities(
-    mutation: Res<Registered<Identity>>,
-    place: Res<TilePlace>,
-    queues: Res<Queues>,
-    list: Read<DrawList, ChainTable>,
-    chosen: Read<ChosenMutation, ChainTable>,
-    lengths: Read<PathLength, ChainTable>,
-    current_depths: Read<PrimaryDepth, ChainTable>,
-    keys: Keys,
-    current: CurrentCoordinates,
-    mut proposed: CoordinatesMut<ProposedPrimaryTable>,
-    mut depths: Write<ProposedDepth, ChainTable>,
-) {
-    let (list, chosen, lengths, keys) = (list.rows(), chosen.rows(), lengths.rows(), keys.columns());
-    let (current_depths, current) = (current_depths.rows(), current.columns());
-    let (mut proposed, depths) = (proposed.columns(), depths.rows());
-    for entry in 0..queues.draw {
-        let chain = list.at(entry) as usize;
-        if chosen.at(chain) as usize != mutation.number {
-            continue;
-        }
-        let depth = lengths.at(chain);
-        let vertex = place.vertex(chain, depth - 1);
+pub fn draw_identities(mutation: Res<Registered<Identity>>, mut drawing: Drawing) {
+    drawing.draw(mutation.number, |current, waiting| {
         // A path without light has no state to be copied: before its first one, a chain draws.
-        let coordinates = if depth <= current_depths.at(chain) {
-            current.at(vertex)
-        } else {
-            VertexCoordinates::independent(keys.at(chain), depth)
-        };
-        proposed.put(vertex, coordinates);
-        depths.put(chain, depth);
-    }
+        current.map_or_else(|| Drawn::afresh(waiting), Drawn::uniform)
+    });
 }

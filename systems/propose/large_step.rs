@@ -12,16 +12,13 @@
 
 use super::super::chains::{Keys, MutationLists};
 use super::super::list::{DRAW_LARGE_STEPS, PROPOSE_LARGE_STEPS};
-use super::super::tile::{Queues, TilePlace};
-use super::super::trace::draws::CoordinatesMut;
+use super::drawing::{Drawing, Drawn};
 use super::proposal::Proposals;
-use crate::chain::{ChosenMutation, MutationList};
-use crate::path::{
-    ChainTable, DrawList, FilmCoordinates, PathLength, ProposedDepth, ProposedPrimaryTable, VertexCoordinates,
-};
+use crate::chain::MutationList;
+use crate::path::{ChainTable, FilmCoordinates, VertexCoordinates};
 use crate::plan::{MovesVertices, Mutation, Registered, StateSpace, Support, SystemPlan};
 use crate::sampling::StreamKey;
-use crate::table::{Read, Rows, Write};
+use crate::table::{Read, Rows};
 use bevy_ecs::system::Res;
 use serde::{Deserialize, Serialize};
 
@@ -97,27 +94,6 @@ pub fn propose_large_steps(
 }
 
 /// Draws the coordinates of the new vertices of chains that take a large step.
-pub fn draw_large_steps(
-    mutation: Res<Registered<LargeStep>>,
-    place: Res<TilePlace>,
-    queues: Res<Queues>,
-    list: Read<DrawList, ChainTable>,
-    chosen: Read<ChosenMutation, ChainTable>,
-    lengths: Read<PathLength, ChainTable>,
-    keys: Keys,
-    mut coordinates: CoordinatesMut<ProposedPrimaryTable>,
-    mut depths: Write<ProposedDepth, ChainTable>,
-) {
-    let (list, chosen, lengths, keys) = (list.rows(), chosen.rows(), lengths.rows(), keys.columns());
-    let (mut coordinates, depths) = (coordinates.columns(), depths.rows());
-    for entry in 0..queues.draw {
-        let chain = list.at(entry) as usize;
-        if chosen.at(chain) as usize != mutation.number {
-            continue;
-        }
-        let depth = lengths.at(chain);
-        let drawn = VertexCoordinates::independent(keys.at(chain), depth);
-        coordinates.put(place.vertex(chain, depth - 1), drawn);
-        depths.put(chain, depth);
-    }
+pub fn draw_large_steps(mutation: Res<Registered<LargeStep>>, mut drawing: Drawing) {
+    drawing.draw(mutation.number, |_, waiting| Drawn::afresh(waiting));
 }

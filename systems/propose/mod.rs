@@ -2,9 +2,11 @@
 
 mod assign_pixels;
 mod choose_mutation;
+pub mod drawing;
 pub mod identity;
 mod key_chains;
 pub mod large_step;
+mod list_starts;
 pub mod proposal;
 pub mod small_step;
 mod small_support;
@@ -16,6 +18,7 @@ pub use choose_mutation::choose_mutation;
 pub use identity::{Identity, draw_identities, propose_identities};
 pub use key_chains::key_chains;
 pub use large_step::{LargeStep, draw_large_steps, propose_large_steps};
+pub use list_starts::list_starts;
 pub use small_step::{SmallStep, draw_small_steps, propose_small_steps};
 pub use small_support::{draw_small_supports, propose_small_supports, weigh_small_supports};
 pub use start_camera_paths::start_camera_paths;

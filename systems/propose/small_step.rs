@@ -15,18 +15,16 @@
 //! the product over the coordinates that both paths have.
 
 use super::super::chains::{Keys, MutationLists};
-use super::super::list::*;
-use super::super::tile::{Queues, TilePlace};
-use super::super::trace::draws::{CoordinatesMut, CurrentCoordinates};
-use super::proposal::Proposals;
-use crate::chain::{ChosenMutation, CommonDensity, Kernel, MutationList};
-use crate::path::{
-    ChainTable, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth, ProposedPrimaryTable,
-    VertexCoordinates,
+use super::super::list::{
+    DRAW_SMALL_STEPS, DRAW_SMALL_SUPPORTS, PROPOSE_SMALL_STEPS, PROPOSE_SMALL_SUPPORTS, WEIGH_SMALL_SUPPORTS,
 };
+use super::drawing::{Drawing, Drawn};
+use super::proposal::Proposals;
+use crate::chain::{Kernel, MutationList};
+use crate::path::{ChainTable, FilmCoordinates, PrimaryFilm, VertexCoordinates};
 use crate::plan::{MovesVertices, Mutation, Region, Registered, StateSpace, Support, SystemPlan};
 use crate::sampling::StreamKey;
-use crate::table::{Read, Rows, Write};
+use crate::table::{Read, Rows};
 use bevy_ecs::system::Res;
 use serde::{Deserialize, Serialize};
 
@@ -144,43 +142,17 @@ pub fn propose_small_steps(
 }
 
 /// Moves the coordinates of the new vertices of chains that take a small step; where the current path has ended, draws them.
-pub fn draw_small_steps(
-    mutation: Res<Registered<SmallStep>>,
-    place: Res<TilePlace>,
-    queues: Res<Queues>,
-    list: Read<DrawList, ChainTable>,
-    chosen: Read<ChosenMutation, ChainTable>,
-    lengths: Read<PathLength, ChainTable>,
-    current_depths: Read<PrimaryDepth, ChainTable>,
-    keys: Keys,
-    current: CurrentCoordinates,
-    mut proposed: CoordinatesMut<ProposedPrimaryTable>,
-    mut depths: Write<ProposedDepth, ChainTable>,
-    mut common: Write<CommonDensity, ChainTable>,
-) {
+pub fn draw_small_steps(mutation: Res<Registered<SmallStep>>, mut drawing: Drawing) {
     let kernel = mutation.settings.kernel();
-    let (list, chosen, lengths, keys) = (list.rows(), chosen.rows(), lengths.rows(), keys.columns());
-    let (current_depths, current) = (current_depths.rows(), current.columns());
-    let (mut proposed, depths, common) = (proposed.columns(), depths.rows(), common.rows());
-    let set = current.set();
-    for entry in 0..queues.draw {
-        let chain = list.at(entry) as usize;
-        if chosen.at(chain) as usize != mutation.number {
-            continue;
-        }
-        let (depth, key) = (lengths.at(chain), keys.at(chain));
-        let vertex = place.vertex(chain, depth - 1);
-        let moved = if depth <= current_depths.at(chain) {
-            let from = current.at(vertex);
-            let moved = from.perturbed(&kernel, key, depth);
-            if !common.is_empty() {
-                common.put(chain, common.at(chain) + from.log_density(&kernel, moved, depth, set));
-            }
-            moved
-        } else {
-            VertexCoordinates::independent(key, depth)
+    drawing.draw(mutation.number, |current, waiting| {
+        let Some(from) = current else {
+            return Drawn::afresh(waiting);
         };
-        proposed.put(vertex, moved);
-        depths.put(chain, depth);
-    }
+        let coordinates = from.perturbed(&kernel, waiting.key, waiting.depth);
+        let mut drawn = Drawn::uniform(coordinates);
+        if waiting.wants_common {
+            drawn.common = from.log_density(&kernel, coordinates, waiting.depth, waiting.set);
+        }
+        drawn
+    });
 }

@@ -5,15 +5,13 @@
 //! [`Kernel::support_length`].
 
 use super::super::chains::{Keys, MutationLists};
-use super::super::tile::{Queues, TilePlace};
-use super::super::trace::draws::{CoordinatesMut, CurrentCoordinates};
+use super::super::tile::TilePlace;
+use super::super::trace::draws::CurrentCoordinates;
+use super::drawing::{Drawing, Drawn, shared_coordinates};
 use super::proposal::Proposals;
 use super::small_step::SmallStep;
-use crate::chain::{ChosenMutation, MutationList, SupportDensity};
-use crate::path::{
-    ChainTable, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth, ProposedPrimaryTable,
-    VertexCoordinates,
-};
+use crate::chain::{MutationList, SupportDensity};
+use crate::path::{ChainTable, FilmCoordinates, PrimaryDepth, PrimaryFilm, ProposedDepth};
 use crate::plan::Registered;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::Res;
@@ -38,43 +36,20 @@ pub fn propose_small_supports(
 
 /// Draws the coordinates of new vertices: uniformly over what a small step can reach where the current path has such a
 /// vertex, afresh beyond it.
-pub fn draw_small_supports(
-    mutation: Res<Registered<SmallStep>>,
-    place: Res<TilePlace>,
-    queues: Res<Queues>,
-    list: Read<DrawList, ChainTable>,
-    chosen: Read<ChosenMutation, ChainTable>,
-    lengths: Read<PathLength, ChainTable>,
-    current_depths: Read<PrimaryDepth, ChainTable>,
-    keys: Keys,
-    current: CurrentCoordinates,
-    mut proposed: CoordinatesMut<ProposedPrimaryTable>,
-    mut depths: Write<ProposedDepth, ChainTable>,
-) {
+pub fn draw_small_supports(mutation: Res<Registered<SmallStep>>, mut drawing: Drawing) {
     let kernel = mutation.settings.kernel();
-    let (list, chosen, lengths, keys) = (list.rows(), chosen.rows(), lengths.rows(), keys.columns());
-    let (current_depths, current) = (current_depths.rows(), current.columns());
-    let (mut proposed, depths) = (proposed.columns(), depths.rows());
-    for entry in 0..queues.draw {
-        let chain = list.at(entry) as usize;
-        if chosen.at(chain) as usize != mutation.number {
-            continue;
-        }
-        let (depth, key) = (lengths.at(chain), keys.at(chain));
-        let vertex = place.vertex(chain, depth - 1);
-        let drawn = if depth <= current_depths.at(chain) {
-            current.at(vertex).uniform_in_support(&kernel, key, depth)
-        } else {
-            VertexCoordinates::independent(key, depth)
-        };
-        proposed.put(vertex, drawn);
-        depths.put(chain, depth);
-    }
+    drawing.draw(mutation.number, |current, waiting| {
+        current.map_or_else(
+            || Drawn::afresh(waiting),
+            |from| Drawn::uniform(from.uniform_in_support(&kernel, waiting.key, waiting.depth)),
+        )
+    });
 }
 
 /// Writes the density of these draws at the proposal: 1 over the length that each shared coordinate can reach.
 pub fn weigh_small_supports(
     mutation: Res<Registered<SmallStep>>,
+    place: Res<TilePlace>,
     lists: Res<MutationLists>,
     list: Read<MutationList, ChainTable>,
     current_depths: Read<PrimaryDepth, ChainTable>,
@@ -88,11 +63,7 @@ pub fn weigh_small_supports(
         (list.rows(), current_depths.rows(), depths.rows(), densities.rows());
     for entry in lists.entries(mutation.number) {
         let chain = list.at(entry) as usize;
-        let shared = current_depths.at(chain).min(depths.at(chain));
-        let count = FilmCoordinates::COUNT
-            + (1..=shared)
-                .map(|depth| VertexCoordinates::count(depth, set))
-                .sum::<u32>();
+        let count = shared_coordinates(&place, chain, set, current_depths, depths);
         densities.put(chain, -log_length * f64::from(count));
     }
 }

@@ -39,6 +39,9 @@ pub fn start_camera_paths(
     mut active: Write<ActiveList, ChainTable>,
     mut start: Start,
 ) {
+    if place.first_coordinate == 0 && !queues.starting {
+        return;
+    }
     let scene = &*scene.0;
     let (keys, pixels, primary, draws) = (keys.rows(), pixels.rows(), film.rows(), draws.columns(&place));
     let (directions, lengths, active) = (directions.rows(), lengths.rows(), active.rows());

@@ -36,6 +36,9 @@ pub fn start_light_paths(
     mut active: Write<ActiveList, ChainTable>,
     mut start: Start,
 ) {
+    if place.first_coordinate == 0 && !queues.starting {
+        return;
+    }
     let scene = &*scene.0;
     let draws = draws.columns(&place);
     let (directions, lengths, active) = (directions.rows(), lengths.rows(), active.rows());

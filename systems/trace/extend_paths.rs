@@ -64,7 +64,9 @@ pub fn extend_paths(
     mut lists: Lists,
 ) {
     let scene = &*scene.0;
-    queues.draw = 0;
+    if !queues.starting {
+        queues.draw = 0;
+    }
     let (paths, directions) = (hits.paths.rows(), hits.directions.rows());
     let (instances, primitives, uvs) = (hits.instances.rows(), hits.primitives.rows(), hits.uvs.rows());
     let lengths = lengths.rows();

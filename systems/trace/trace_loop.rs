@@ -8,12 +8,18 @@ use bevy_ecs::world::World;
 /// before.
 pub fn trace_loop(world: &mut World) {
     let mut depth = 0;
-    while world.resource::<Queues>().active > 0 {
+    while is_busy(world.resource::<Queues>()) {
         depth += 1;
         // One more: a light subpath's vertex brings an entry to its chain's list, behind that of the chain's own pixel.
         if depth >= world.resource::<Depths>().held() {
             grow_tables(world, depth + 1);
         }
         world.run_schedule(TraceLoop);
+        world.resource_mut::<Queues>().starting = false;
     }
+}
+
+/// Whether some path waits for a ray, or for the numbers to start with.
+fn is_busy(queues: &Queues) -> bool {
+    queues.active > 0 || queues.starting
 }

@@ -2,17 +2,17 @@
 
 use bevy_ecs::schedule::IntoScheduleConfigs;
 use bevy_ecs::system::Res;
-use chainlight::chain::{ChosenMutation, CommonDensity, ForwardDensity, Kernel, MutationList, SupportDensity};
+use chainlight::chain::{Kernel, MutationList, SupportDensity};
 use chainlight::path::{
-    ChainTable, CoordinateSet, DrawList, FilmCoordinates, PathLength, PrimaryDepth, PrimaryFilm, ProposedDepth,
-    ProposedPrimaryTable, VertexCoordinates,
+    ChainTable, CoordinateSet, FilmCoordinates, PrimaryDepth, PrimaryFilm, ProposedDepth, VertexCoordinates,
 };
 use chainlight::plan::{InPlan, Mutation, Place, Region, Registered, Stage, SystemPlan, SystemSpec, TraceStep};
 use chainlight::sampling::StreamKey;
 use chainlight::systems::chains::{Keys, MutationLists};
+use chainlight::systems::propose::drawing::{Drawing, Drawn, shared_coordinates};
 use chainlight::systems::propose::proposal::Proposals;
-use chainlight::systems::tile::{Queues, TilePlace};
-use chainlight::systems::trace::draws::{CoordinatesMut, CurrentCoordinates};
+use chainlight::systems::tile::TilePlace;
+use chainlight::systems::trace::draws::CurrentCoordinates;
 use chainlight::table::{Read, Rows, Write};
 
 /// A proposal of some coordinates.
@@ -116,48 +116,24 @@ fn propose_steps<M: Steps>(
     }
 }
 
-fn draw_steps<M: Steps>(
-    mutation: Res<Registered<M>>,
-    place: Res<TilePlace>,
-    queues: Res<Queues>,
-    list: Read<DrawList, ChainTable>,
-    chosen: Read<ChosenMutation, ChainTable>,
-    lengths: Read<PathLength, ChainTable>,
-    current_depths: Read<PrimaryDepth, ChainTable>,
-    keys: Keys,
-    current: CurrentCoordinates,
-    mut proposed: CoordinatesMut<ProposedPrimaryTable>,
-    mut depths: Write<ProposedDepth, ChainTable>,
-    (mut common, mut forward): (Write<CommonDensity, ChainTable>, Write<ForwardDensity, ChainTable>),
-) {
-    let (list, chosen, lengths, keys) = (list.rows(), chosen.rows(), lengths.rows(), keys.columns());
-    let (current_depths, current) = (current_depths.rows(), current.columns());
-    let (mut proposed, depths) = (proposed.columns(), depths.rows());
-    let (common, forward) = (common.rows(), forward.rows());
-    for entry in 0..queues.draw {
-        let chain = list.at(entry) as usize;
-        if chosen.at(chain) as usize != mutation.number {
-            continue;
-        }
-        let depth = lengths.at(chain);
-        let vertex = place.vertex(chain, depth - 1);
+fn draw_steps<M: Steps>(mutation: Res<Registered<M>>, mut drawing: Drawing) {
+    let steps = &mutation.settings;
+    drawing.draw(mutation.number, |current, waiting| {
         let at = Reached {
-            depth,
-            grows: depth == current_depths.at(chain) + 1,
-            set: current.set(),
+            depth: waiting.depth,
+            grows: waiting.grows,
+            set: waiting.set,
         };
-        let moved = if depth <= current_depths.at(chain) {
-            mutation.settings.shared(current.at(vertex), at, keys.at(chain))
-        } else {
-            mutation.settings.beyond(at, keys.at(chain))
+        let moved = match current {
+            Some(current) => steps.shared(current, at, waiting.key),
+            None => steps.beyond(at, waiting.key),
         };
-        proposed.put(vertex, moved.to);
-        depths.put(chain, depth);
-        forward.put(chain, forward.at(chain) + moved.forward);
-        if !common.is_empty() {
-            common.put(chain, common.at(chain) + moved.density);
+        Drawn {
+            coordinates: moved.to,
+            common: moved.density,
+            forward: moved.forward,
         }
-    }
+    });
 }
 
 fn propose_supports<M: Steps>(
@@ -177,38 +153,14 @@ fn propose_supports<M: Steps>(
     }
 }
 
-fn draw_supports<M: Steps>(
-    mutation: Res<Registered<M>>,
-    place: Res<TilePlace>,
-    queues: Res<Queues>,
-    list: Read<DrawList, ChainTable>,
-    lengths: Read<PathLength, ChainTable>,
-    current_depths: Read<PrimaryDepth, ChainTable>,
-    keys: Keys,
-    current: CurrentCoordinates,
-    mut proposed: CoordinatesMut<ProposedPrimaryTable>,
-    mut depths: Write<ProposedDepth, ChainTable>,
-    chosen: Read<ChosenMutation, ChainTable>,
-) {
+fn draw_supports<M: Steps>(mutation: Res<Registered<M>>, mut drawing: Drawing) {
     let kernel = mutation.settings.kernel();
-    let (list, chosen, lengths, keys) = (list.rows(), chosen.rows(), lengths.rows(), keys.columns());
-    let (current_depths, current) = (current_depths.rows(), current.columns());
-    let (mut proposed, depths) = (proposed.columns(), depths.rows());
-    for entry in 0..queues.draw {
-        let chain = list.at(entry) as usize;
-        if chosen.at(chain) as usize != mutation.number {
-            continue;
-        }
-        let (depth, key) = (lengths.at(chain), keys.at(chain));
-        let vertex = place.vertex(chain, depth - 1);
-        let drawn = if depth <= current_depths.at(chain) {
-            current.at(vertex).uniform_in_support(&kernel, key, depth)
-        } else {
-            VertexCoordinates::independent(key, depth)
-        };
-        proposed.put(vertex, drawn);
-        depths.put(chain, depth);
-    }
+    drawing.draw(mutation.number, |current, waiting| {
+        current.map_or_else(
+            || Drawn::afresh(waiting),
+            |from| Drawn::uniform(from.uniform_in_support(&kernel, waiting.key, waiting.depth)),
+        )
+    });
 }
 
 fn weigh_supports<M: Steps>(
@@ -223,9 +175,7 @@ fn weigh_supports<M: Steps>(
     let set = current.columns().set();
     let (current_depths, depths, densities) = (current_depths.rows(), depths.rows(), densities.rows());
     for chain in 0..place.chains as usize {
-        let shared = current_depths.at(chain).min(depths.at(chain));
-        let vertices = (1..=shared).map(|depth| VertexCoordinates::count(depth, set));
-        let count = FilmCoordinates::COUNT + vertices.sum::<u32>();
+        let count = shared_coordinates(&place, chain, set, current_depths, depths);
         densities.put(chain, -log_length * f64::from(count));
     }
 }

@@ -17,6 +17,8 @@ enum Shape {
     /// Whose points are looked for near the world's origin only.
     Floor(Triangle),
     Sphere(Vec3, f32),
+    Disk(Vec3, Vec3, f32),
+    Cylinder(Vec3, Vec3, f32),
 }
 
 impl Shape {
@@ -24,7 +26,7 @@ impl Shape {
         let size = dice.magnitude(1e-4, 1e6);
         let far = dice.pick(&[0.0, 1e-3, 1.0, 1e3]) * size;
         let center = dice.direction() * dice.unit() * far.min(1e6);
-        match dice.below(8) {
+        match dice.below(12) {
             0 | 1 => Self::Triangle([0; 3].map(|_| center + dice.point(1.0) * size)),
             2 => {
                 let [along, across] = dice.plane();
@@ -60,6 +62,21 @@ impl Shape {
                 Self::Floor([corner(-1.1, -0.9), corner(1.2, -0.8), corner(-0.2, 1.3)])
             }
             6 => Self::Sphere(center, size),
+            7 | 8 => {
+                // Through the world's origin, or anywhere.
+                let anywhere = dice.direction();
+                let normal = dice.pick(&[anywhere, Vec3::X, Vec3::NEG_Y, anywhere]);
+                let center = dice.pick(&[center, center - normal * normal.dot(center), Vec3::ZERO]);
+                Self::Disk(center, normal, size)
+            }
+            9 | 10 => {
+                let anywhere = dice.direction();
+                let along = dice.pick(&[anywhere, Vec3::Z, anywhere]) * size * dice.magnitude(1e-2, 1e2);
+                // Its side through the world's origin, or anywhere.
+                let beside = along.normalize().any_orthonormal_vector() * size;
+                let from = dice.pick(&[center, beside - along * 0.3]);
+                Self::Cylinder(from, from + along, size)
+            }
             // A sphere that touches the world's origin.
             _ => Self::Sphere(dice.direction() * size, size),
         }
@@ -70,6 +87,8 @@ impl Shape {
         let world = match self {
             Self::Triangle(corners) | Self::Floor(corners) => world.mesh(&[corners]),
             Self::Sphere(center, radius) => world.sphere(center, radius),
+            Self::Disk(center, normal, radius) => world.disk(center, normal, radius),
+            Self::Cylinder(from, to, radius) => world.cylinder(from, to, radius),
         };
         world.compile().geometry
     }
@@ -91,6 +110,24 @@ impl Shape {
                 let near_origin = anywhere * dice.magnitude(1e-6, 1.0) - center.normalize_or_zero();
                 let outward = dice.pick(&[anywhere, near_origin]).as_dvec3().normalize();
                 (center.as_dvec3() + outward * f64::from(radius), radius)
+            }
+            Self::Disk(center, normal, radius) => {
+                let (x, y) = normal.as_dvec3().normalize().any_orthonormal_pair();
+                let [u, v] = [0; 2].map(|_| f64::from(dice.between(-0.8, 0.8) * radius));
+                // Half of them at the rim, or at the middle.
+                let share = dice.pick(&[1.0, 1.0, 1e-4, 0.999_999 * f64::from(radius) / (u * u + v * v).sqrt()]);
+                (center.as_dvec3() + (x * u + y * v) * share, radius)
+            }
+            Self::Cylinder(from, to, radius) => {
+                let axis = to.as_dvec3() - from.as_dvec3();
+                let anywhere = dice.fine_unit();
+                let along = dice.pick(&[anywhere, anywhere, 1e-7, 0.999_999_9]);
+                let outward = dice
+                    .direction()
+                    .as_dvec3()
+                    .cross(axis)
+                    .normalize_or(axis.any_orthonormal_vector().normalize());
+                (from.as_dvec3() + axis * along + outward * f64::from(radius), radius)
             }
         };
         let away = dice.direction() * size * dice.magnitude(1e-3, 1e2);
@@ -143,6 +180,15 @@ fn rays_that_leave_a_surface_never_hit_it_again() {
                         let least = radius * -cosine;
                         assert!(
                             found.distance > least,
+                            "{shape:?} {line:?} {cosine} {point:?} {found:?}"
+                        );
+                    }
+                }
+                Shape::Cylinder(_, _, radius) if inwards => {
+                    // The far side, or out at an end.
+                    if point.offset < 0.1 * radius && found.hit().is_some() {
+                        assert!(
+                            found.distance > radius * -cosine,
                             "{shape:?} {line:?} {cosine} {point:?} {found:?}"
                         );
                     }

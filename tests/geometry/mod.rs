@@ -10,6 +10,7 @@ mod leaving;
 mod lights;
 mod points;
 mod rooms;
+mod round;
 mod scan;
 mod shapes;
 mod sheets;

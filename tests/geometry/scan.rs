@@ -1,7 +1,7 @@
 //! The oracle of the tree: every primitive against every ray, with formulas of its own.
 //!
 //! A triangle is met where the three signed volumes of the ray with its edges agree in sign (Plücker coordinates); a
-//! sphere where a quadratic has real roots. What rounding could turn over is called unsure and not judged; with a
+//! sphere or tube where a quadratic has real roots, a disk where the point of its plane is near enough. Rims are fuzzy. What rounding could turn over is called unsure and not judged; with a
 //! margin of zero nothing is, for worlds whose numbers are so short that f64 computes them exactly.
 
 use super::world::{Line, Triangle};
@@ -11,6 +11,10 @@ use glam::{DVec3, Vec3};
 pub enum Shape {
     Triangle(Triangle),
     Sphere(Vec3, f32),
+    /// Centre, unit normal, radius.
+    Disk(Vec3, Vec3, f32),
+    /// Both ends, radius.
+    Cylinder(Vec3, Vec3, f32),
 }
 
 /// What the scan says of one primitive: where a line meets it, if it does.
@@ -44,6 +48,8 @@ impl Scan {
                 let meeting = match *shape {
                     Shape::Triangle(corners) => meet_triangle(corners, origin, direction, self.margin),
                     Shape::Sphere(center, radius) => meet_sphere(center, radius, origin, direction),
+                    Shape::Disk(center, normal, radius) => meet_disk(center, normal, radius, origin, direction),
+                    Shape::Cylinder(from, to, radius) => meet_cylinder([from, to], radius, origin, direction),
                 };
                 ((instance as u32, primitive as u32), meeting)
             })
@@ -139,4 +145,76 @@ fn meet_sphere(center: Vec3, radius: f32, origin: Vec3, direction: DVec3) -> Mee
     }
     let root = discriminant.sqrt();
     Meeting::At(vec![(-b - root) / a, (-b + root) / a])
+}
+
+/// How far from a rim, relative to its radius, the scan is sure: the tracer is to meet what lies just beyond.
+const RIM: f64 = 1e-6;
+
+fn meet_disk(center: Vec3, normal: Vec3, radius: f32, origin: Vec3, direction: DVec3) -> Meeting {
+    let (radius, normal) = (f64::from(radius), normal.as_dvec3());
+    let slant = normal.dot(direction);
+    if slant == 0.0 {
+        return Meeting::Never;
+    }
+    if slant.abs() < 1e-9 * direction.length() {
+        return Meeting::Unsure;
+    }
+    // From the origin to its foot on the plane, and from there along the direction's part in the plane.
+    let height = normal.dot(origin.as_dvec3() - center.as_dvec3());
+    let foot = origin.as_dvec3() - normal * height;
+    let t = -height / slant;
+    let point = foot + (direction - normal * slant) * t;
+    let off = (point - center.as_dvec3()).length() / radius - 1.0;
+    if off.abs() < RIM {
+        return Meeting::Unsure;
+    }
+    if off > 0.0 {
+        Meeting::Never
+    } else {
+        Meeting::At(vec![t])
+    }
+}
+
+fn meet_cylinder([from, to]: [Vec3; 2], radius: f32, origin: Vec3, direction: DVec3) -> Meeting {
+    let axis = to.as_dvec3() - from.as_dvec3();
+    let length = axis.length();
+    // Products of vectors with the axis turn them by a quarter about it, which changes no lengths across.
+    let across = |v: DVec3| v.cross(axis) / length;
+    let (p, d) = (across(origin.as_dvec3() - from.as_dvec3()), across(direction));
+    let (a, b, c) = (
+        d.length_squared(),
+        p.dot(d),
+        p.length_squared() - f64::from(radius) * f64::from(radius),
+    );
+    if a == 0.0 {
+        return Meeting::Never;
+    }
+    if a < 1e-12 * direction.length_squared() {
+        return Meeting::Unsure;
+    }
+    let discriminant = b * b - a * c;
+    if discriminant.abs() < 1e-9 * (b * b + a * (p.length_squared() + f64::from(radius) * f64::from(radius))) {
+        return Meeting::Unsure;
+    }
+    if discriminant < 0.0 {
+        return Meeting::Never;
+    }
+    let root = discriminant.sqrt();
+    let mut distances = Vec::new();
+    for t in [(-b - root) / a, (-b + root) / a] {
+        let point = origin.as_dvec3() + direction * t;
+        let along = (point - from.as_dvec3()).dot(axis) / (length * length);
+        let fuzzy = RIM * (1.0 + f64::from(radius) / length);
+        if along.abs().min((along - 1.0).abs()) < fuzzy {
+            return Meeting::Unsure;
+        }
+        if (0.0..1.0).contains(&along) {
+            distances.push(t);
+        }
+    }
+    if distances.is_empty() {
+        Meeting::Never
+    } else {
+        Meeting::At(distances)
+    }
 }

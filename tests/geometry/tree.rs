@@ -6,16 +6,18 @@ use super::world::{Line, Triangle, World, closest, free};
 use chainlight::geometry::Geometry;
 use glam::Vec3;
 
-/// Instances in turn: a mesh of some triangles, or one sphere.
+/// Instances in turn: a mesh of some triangles, or one other shape.
 fn build(instances: &[Vec<Shape>]) -> Geometry {
     let mut world = World::default();
     for shapes in instances {
         let triangle = |shape: &Shape| match *shape {
             Shape::Triangle(corners) => Some(corners),
-            Shape::Sphere(..) => None,
+            _ => None,
         };
         world = match shapes.as_slice() {
             [Shape::Sphere(center, radius)] => world.sphere(*center, *radius),
+            [Shape::Disk(center, normal, radius)] => world.disk(*center, *normal, *radius),
+            [Shape::Cylinder(from, to, radius)] => world.cylinder(*from, *to, *radius),
             _ => world.mesh(&shapes.iter().filter_map(triangle).collect::<Vec<Triangle>>()),
         };
     }
@@ -36,7 +38,7 @@ fn group(count: usize, dice: &mut Dice, mut next: impl FnMut(&mut Dice, bool) ->
 }
 
 /// Compares geometry and scan; returns how many rays and segments were judged.
-fn compare(instances: Vec<Vec<Shape>>, margin: f64, rays: &[Line], segments: &[Line]) -> usize {
+pub fn compare(instances: Vec<Vec<Shape>>, margin: f64, rays: &[Line], segments: &[Line]) -> usize {
     let geometry = build(&instances);
     let scan = Scan {
         shapes: instances,

@@ -57,6 +57,37 @@ impl World {
         self
     }
 
+    pub fn disk(mut self, center: Vec3, normal: Vec3, radius: f32) -> Self {
+        // Only the normal matters to rays.
+        let frame = Mat3::from_cols(Vec3::X, Vec3::Y, normal);
+        self.push_round(scene::Geometry::Disk {
+            center,
+            radius,
+            frame,
+            material: 0,
+        });
+        self
+    }
+
+    pub fn cylinder(mut self, from: Vec3, to: Vec3, radius: f32) -> Self {
+        self.push_round(scene::Geometry::Cylinder {
+            from,
+            to,
+            radius,
+            frame: Mat3::IDENTITY,
+            material: 0,
+        });
+        self
+    }
+
+    fn push_round(&mut self, geometry: scene::Geometry) {
+        self.instances.push(Instance {
+            name: String::new(),
+            geometry,
+            emission: Emission::None,
+        });
+    }
+
     fn push(&mut self, mesh: Mesh, emission: Emission) {
         self.instances.push(Instance {
             name: String::new(),

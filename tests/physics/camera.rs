@@ -160,7 +160,7 @@ fn random_camera(case: usize, stream: &mut Stream) -> (Camera, CameraDescription
             fov,
             fov_axis,
             aperture_radius: 0.1 * size,
-            focus_distance: (case % 2 == 0).then_some(1.7 * size),
+            focus_distance: case.is_multiple_of(2).then_some(1.7 * size),
         },
         _ => CameraDescription::Orthographic {
             origin,

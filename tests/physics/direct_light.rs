@@ -1,5 +1,5 @@
-//! Direct light on a matt floor against closed forms: a ball, and a rectangle by Lambert's formula for polygons, near
-//! and far, overhead and aslant, small and large and far from the world's origin.
+//! Direct light on a matt floor against closed forms: a ball, a disk, and a rectangle by Lambert's formula for
+//! polygons; a tube against an integral over its surface; near and far, overhead and aslant, small and large and far from the world's origin.
 
 use crate::support::render::{picture, scene, whole};
 use crate::support::verdict::Family;
@@ -11,7 +11,7 @@ const REFLECTANCE: f64 = 0.5;
 const RADIANCE: f64 = 4.0;
 /// Units of length, and how far the world's origin is away, in units.
 const PLACES: [(f64, f64); 4] = [(1.0, 0.0), (1e-4, 0.0), (1e4, 0.0), (1.0, 1e4)];
-const LIGHTS: [Light; 7] = [
+const LIGHTS: [Light; 10] = [
     ball("ball overhead", [0.0, 2.0, 0.0], 0.5, 4.0),
     ball("ball aslant", [3.0, 2.0, 1.0], 1.5, 4.0),
     ball("ball far", [40.0, 80.0, 10.0], 1.0, 4.0),
@@ -31,6 +31,31 @@ const LIGHTS: [Light; 7] = [
         [0.0, 0.0, 2.0],
         0.0625,
     ),
+    Light {
+        name: "disk overhead",
+        shape: Shape::Disk {
+            center: [0.5, 1.5, -0.25],
+            radius: 1.0,
+        },
+        headroom: 4.0,
+    },
+    Light {
+        name: "disk far",
+        shape: Shape::Disk {
+            center: [30.0, 60.0, 0.0],
+            radius: 2.0,
+        },
+        headroom: 4.0,
+    },
+    Light {
+        name: "tube",
+        shape: Shape::Tube {
+            from: [-1.0, 1.0, 1.0],
+            to: [1.5, 2.0, 0.5],
+            radius: 0.25,
+        },
+        headroom: 4.0,
+    },
 ];
 const FAMILY: Family = Family {
     tests: LIGHTS.len() * PLACES.len() * 2,
@@ -56,6 +81,16 @@ enum Shape {
         corner: [f64; 3],
         u: [f64; 3],
         v: [f64; 3],
+    },
+    /// Faces down.
+    Disk {
+        center: [f64; 3],
+        radius: f64,
+    },
+    Tube {
+        from: [f64; 3],
+        to: [f64; 3],
+        radius: f64,
     },
 }
 
@@ -89,6 +124,17 @@ impl Light {
                 let [corner, u, v] = [corner, u, v].map(DVec3::from_array);
                 lambert(&[corner, corner + u, corner + u + v, corner + v])
             }
+            Shape::Disk {
+                center: [x, y, z],
+                radius,
+            } => {
+                // Howell, *A Catalog of Radiation Heat Transfer Configuration Factors*, B-13: in offsets aside.
+                let aside = (x * x + z * z).sqrt();
+                let (h, r) = (y / aside, radius / aside);
+                let sum = 1.0 + h * h + r * r;
+                PI * 0.5 * (1.0 - (1.0 + h * h - r * r) / (sum * sum - 4.0 * r * r).sqrt())
+            }
+            Shape::Tube { from, to, radius } => around_tube(from.into(), to.into(), radius),
         }
     }
 
@@ -105,9 +151,40 @@ impl Light {
                 place.edge(u),
                 place.edge(v)
             ),
+            Shape::Disk { center, radius } => format!(
+                "Disk(center: {}, normal: (0, -1, 0), radius: {})",
+                place.point(center),
+                radius * place.unit
+            ),
+            Shape::Tube { from, to, radius } => format!(
+                "Cylinder(from: {}, to: {}, radius: {})",
+                place.point(from),
+                place.point(to),
+                radius * place.unit
+            ),
         };
         format!("(shape: {shape}, material: \"black\", emission: ({RADIANCE}, {RADIANCE}, {RADIANCE}))")
     }
+}
+
+/// Irradiance of the origin, whose normal is +y, per radiance of the outside of a tube above the horizon: the product of
+/// both cosines over the squared distance, by the midpoint rule over the tube.
+fn around_tube(from: DVec3, to: DVec3, radius: f64) -> f64 {
+    const STEPS: u32 = 1000;
+    let axis = to - from;
+    let (x, y) = axis.normalize().any_orthonormal_pair();
+    let area = 2.0 * PI * radius * axis.length() / f64::from(STEPS * STEPS);
+    let mut sum = 0.0;
+    for i in 0..STEPS {
+        let angle = 2.0 * PI * (f64::from(i) + 0.5) / f64::from(STEPS);
+        let normal = x * libm::cos(angle) + y * libm::sin(angle);
+        for j in 0..STEPS {
+            let point = from + axis * ((f64::from(j) + 0.5) / f64::from(STEPS)) + normal * radius;
+            let d2 = point.length_squared();
+            sum += point.y.max(0.0) * (-point.dot(normal)).max(0.0) / (d2 * d2) * area;
+        }
+    }
+    sum
 }
 
 /// Lambert's formula (1760): the irradiance per radiance that a polygon above the horizon sends to the origin, whose

@@ -11,3 +11,6 @@ mod fresnel;
 mod furnace;
 mod furnace_smooth;
 mod lights;
+mod other_renderer;
+mod rough;
+mod textures;

@@ -14,6 +14,8 @@ mod lights;
 mod primary;
 mod remote;
 mod resampling;
+mod rough;
+mod rough_lobes;
 mod smooth;
 mod stream_lags;
 mod streams;

@@ -6,5 +6,6 @@ pub mod draws;
 pub mod materials;
 pub mod reference;
 pub mod render;
+pub mod rough;
 pub mod scenes;
 pub mod verdict;

@@ -3,7 +3,8 @@
 //! What a rough material needs of them: how many face which way, how much of them is seen from a direction, and normals
 //! drawn in proportion to what is seen. Masking is Smith's, and that of two directions is the product of both
 //! (uncorrelated), so that values are reciprocal and tables of other renderers apply. Light that meets a second facet is
-//! lost: a rough white surface reflects less than it receives, by up to a half at the roughness 1.
+//! lost: a rough white metal reflects less than it receives. Of light from straight above it loses 2 % at the roughness 0.2,
+//! and 1 − ln 2 is all that is left at the roughness 1 (GGX).
 //!
 //! All is computed in `f64`. Nothing divides by the cosine of a direction, which at grazing angles cancels against
 //! masking: [`Microfacets::projected_area`] is their quotient in closed form. Directions here have z >= 0 and unit length;
@@ -21,6 +22,7 @@ use std::f64::consts::PI;
 
 /// How the slopes of microfacets are distributed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename = "distribution")]
 pub enum Distribution {
     /// Trowbridge and Reitz (1975), also known as GGX (Walter et al. 2007): long tails, as real surfaces have them.
     #[default]

@@ -110,7 +110,7 @@ mod tests {
                 for corner in mesh.triangles[triangle] {
                     let shading = mesh.normals[corner as usize];
                     assert!(
-                        shading.is_normalized() && shading.dot(normal) > 0.7,
+                        shading.is_normalized() && shading.dot(normal) > 0.5,
                         "{transform}: {shading} on {normal}"
                     );
                 }

@@ -35,7 +35,6 @@ pub(super) fn check(at: &At, texture: &TextureDescription) -> Result<(), SceneEr
 
 fn scales(at: &At, scale: [f32; 2]) -> Result<(), SceneError> {
     let help = "how often it repeats per unit of texture coordinates";
-    let each = scale.iter().enumerate();
-    each.map(|(axis, value)| at.index(axis).within(*value, -MAX_SCALE, MAX_SCALE, help))
-        .collect()
+    let mut each = scale.iter().enumerate();
+    each.try_for_each(|(axis, value)| at.index(axis).within(*value, -MAX_SCALE, MAX_SCALE, help))
 }
