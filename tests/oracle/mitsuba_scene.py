@@ -83,8 +83,9 @@ def particle_tracer(depth):
 
 
 def files(description):
-    """The files that a scene names, in the order in which it names them: textures, lights, shapes."""
-    named = [*description.get("textures", {}).values(), *description.get("lights", [])]
+    """The files that a scene names: those of textures by name, of lights, of shapes in order."""
+    named = [texture for _, texture in sorted(description.get("textures", {}).items())]
+    named += description.get("lights", [])
     named += [entry["shape"] for entry in description["shapes"]]
     return [part.fields["file"] for part in named if "file" in part.fields]
 
