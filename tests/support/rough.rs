@@ -100,7 +100,7 @@ pub enum Points {
 impl Points {
     fn list(self) -> Vec<[f64; 2]> {
         const SIDE: u32 = 40;
-        const SPREAD: u32 = 1200;
+        const SPREAD: u32 = 2400;
         const P: f64 = 1.324_717_957_244_746;
         match self {
             Self::Rows => (0..SIDE * SIDE)
