@@ -30,7 +30,7 @@ SCENES = {
     "cornell-glossy": (96, 256),
     "cornell-window": (128, 256),
     "veach-plates": (256, 256),
-    "depth-of-field": (96, 256),
+    "depth-of-field": (192, 256),
     "island": (128, 256),
 }
 SAMPLER = "multijitter"
