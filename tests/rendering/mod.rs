@@ -8,7 +8,7 @@ mod world;
 
 use chainlight::film::Picture;
 use chainlight::plan::{Plan, Technique};
-use chainlight::render::{Render, Rendering};
+use chainlight::render::Render;
 use chainlight::scene::Scene;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
