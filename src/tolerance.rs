@@ -36,11 +36,11 @@ pub const BOX_EXIT_SLACK: f32 = 1.0 + 8.0 * F32_ROUNDING;
 /// `coincident_triangles_return_the_lowest_primitive`.
 pub const CULL_SLACK: f32 = 1.0 + 6.0 * F32_ROUNDING;
 
-/// The smallest roughness of microfacets; scenes that ask for less are refused and pointed at the smooth material. Directions
-/// are rounded to 2⁻²⁴: a lobe ten times narrower than this one would be narrower than what rounding does to a half vector
-/// of grazing directions, and values would be noise. Here rounding moves half vectors by a thousandth of the lobe, and albedos
-/// agree with the smooth material's to a few ten-thousandths. Guarded by
-/// `the_smoothest_rough_surfaces_agree_with_smooth_ones` and `rough_lobes_follow_their_densities`.
+/// The smallest roughness of microfacets; scenes that ask for less are refused and pointed at the smooth material, with whose
+/// albedo this one agrees to a thousandth, so that nothing jumps. Directions are rounded to 2⁻²⁴, which moves a half vector by
+/// 3e-8 over the cosine of incidence: a thousandth of this lobe's width, but all of it where light grazes at cosines below
+/// 1e-3, where only what is drawn is exact. A lobe ten times narrower would be lost to rounding at ordinary angles. Guarded
+/// by `the_smoothest_rough_surfaces_agree_with_smooth_ones` and `rough_lobes_follow_their_densities`.
 pub const LEAST_ROUGHNESS: f32 = 1e-4;
 
 /// Half the distance from 1 to the next f32: the largest relative error of one rounding.

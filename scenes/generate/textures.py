@@ -46,7 +46,7 @@ def quantized(color):
 
 
 def wood():
-    light, dark = (0.66, 0.46, 0.29), (0.41, 0.25, 0.14)
+    light, dark = (0.74, 0.55, 0.37), (0.50, 0.33, 0.20)
     png.write("wood", 192, 192, lambda x, y: quantized(mix(light, dark, grain(x / 192, y / 48, 5, 1))))
 
 
@@ -60,8 +60,8 @@ def boards():
         length, along = divmod((y + shift) % size, size // 2)
         tone = lattice(board, length, 31)
         joint = across == 0 or along == 0
-        light = mix((0.60, 0.44, 0.30), (0.50, 0.34, 0.21), tone)
-        dark = mix((0.40, 0.27, 0.17), (0.33, 0.21, 0.12), tone)
+        light = mix((0.72, 0.57, 0.42), (0.62, 0.47, 0.33), tone)
+        dark = mix((0.54, 0.40, 0.28), (0.46, 0.33, 0.22), tone)
         value = mix(light, dark, grain(across / 32 * 0.5 + board * 0.37, y / 64, 7 + board, 1))
         return quantized(mix(value, (0.08, 0.05, 0.03), 0.8 if joint else 0))
 

@@ -2,11 +2,12 @@
 
 use super::family::{Cell, Family, NOWHERE, Side, cell, lengths};
 use crate::path::{
-    ChainTable, PrimaryChoice, PrimaryDepth, PrimaryFilm, PrimaryLight, PrimaryRoulette, PrimaryScatter, PrimaryTable,
-    ProposedDepth, ProposedFilm, ProposedPrimaryTable,
+    ChainTable, PrimaryChoice, PrimaryDepth, PrimaryFilm, PrimaryLight, PrimaryLobe, PrimaryRoulette, PrimaryScatter,
+    PrimaryTable, ProposedDepth, ProposedFilm, ProposedPrimaryTable,
 };
-use crate::plan::{Extent, TableId, TilePlan};
+use crate::plan::{Extent, Subpaths, TableId, TilePlan};
 use crate::render::TileWorld;
+use crate::systems::tile::TilePlace;
 use crate::table::Column;
 use bytemuck::Zeroable;
 
@@ -27,8 +28,7 @@ pub(super) fn families(plan: &TilePlan) -> Vec<Family> {
         film_grid("film coordinates", 0),
         film_grid("film coordinates in an eighth", PARTS_LOG2),
         Family::new(lengths("last coordinates at depth"), false, |world, side, cells| {
-            let count = cells.len();
-            for (to, depth) in cells.iter_mut().zip(depths(world, side, count)) {
+            for (to, depth) in cells.iter_mut().zip(depths(world, side)) {
                 *to = cell(depth as usize, lengths("").len());
             }
         }),
@@ -36,17 +36,36 @@ pub(super) fn families(plan: &TilePlan) -> Vec<Family> {
     let Some(table) = plan.tables.iter().find(|table| table.id == TableId::PRIMARY) else {
         return families;
     };
-    let Extent::PerDepth { most, .. } = table.extent else {
+    let Extent::PerDepth { first, most, .. } = table.extent else {
         return families;
     };
-    let capacity = plan.size as usize;
-    for depth in 1..=most.min(DEPTHS) {
-        families.push(vertex_grid::<PrimaryScatter>("scatter", depth, capacity));
-        if table.has::<PrimaryLight>() {
-            families.push(vertex_grid::<PrimaryLight>("light", depth, capacity));
+    let ends = match plan.subpaths {
+        Subpaths::Camera => [Some("camera"), None],
+        Subpaths::Light => [None, Some("light")],
+        Subpaths::Both => [Some("camera"), Some("light")],
+    };
+    for (from_light, end) in ends.into_iter().enumerate() {
+        let Some(end) = end else { continue };
+        for depth in first..=most.min(first + DEPTHS - 1) {
+            let at = At {
+                from_light: from_light == 1,
+                depth,
+            };
+            let name = |what| format!("{what} coordinates at depth {depth} from the {end}");
+            families.push(vertex_grid::<PrimaryScatter>(&name("scatter"), at));
+            if table.has::<PrimaryLight>() {
+                families.push(vertex_grid::<PrimaryLight>(&name("light"), at));
+            }
         }
     }
     families
+}
+
+/// A vertex of every state: which end it is counted from, and its depth.
+#[derive(Clone, Copy)]
+struct At {
+    from_light: bool,
+    depth: u32,
 }
 
 /// Names of a square's cells.
@@ -62,8 +81,9 @@ fn grid_cell(x: u32, y: u32) -> Cell {
     cell(place(y) * SIDE + place(x), SIDE * SIDE)
 }
 
-fn depths(world: &mut TileWorld, side: Side, chains: usize) -> Vec<u32> {
-    let mut depths = vec![0; chains];
+/// The depth of every subpath's last coordinates: those of all camera subpaths, then those from lights.
+fn depths(world: &mut TileWorld, side: Side) -> Vec<u32> {
+    let mut depths = vec![0; world.world().resource::<TilePlace>().capacity as usize];
     match side {
         Side::Current => world.read::<PrimaryDepth, ChainTable>(&mut depths),
         Side::Proposed => world.read::<ProposedDepth, ChainTable>(&mut depths),
@@ -90,15 +110,16 @@ fn film_grid(what: &str, parts_log2: u32) -> Family {
     })
 }
 
-fn vertex_grid<C: Column<Value = [u32; 2]>>(what: &str, depth: u32, capacity: usize) -> Family {
-    let name = format!("{what} coordinates at depth {depth}");
-    Family::new(grid(&name), true, move |world, side, cells| {
-        let first = (depth - 1) as usize * capacity;
+fn vertex_grid<C: Column<Value = [u32; 2]>>(name: &str, at: At) -> Family {
+    Family::new(grid(name), true, move |world, side, cells| {
+        let place = *world.world().resource::<TilePlace>();
+        let path = if at.from_light { place.lights_from as usize } else { 0 };
+        let first = place.coordinate(path, at.depth);
         let coordinates = vertices::<C>(world, side, first + cells.len());
-        let depths = depths(world, side, cells.len());
+        let depths = depths(world, side);
         let here = coordinates.iter().skip(first);
-        for ((to, &[x, y]), own) in cells.iter_mut().zip(here).zip(depths) {
-            *to = if own >= depth { grid_cell(x, y) } else { NOWHERE };
+        for ((to, &[x, y]), own) in cells.iter_mut().zip(here).zip(depths.into_iter().skip(path)) {
+            *to = if own >= at.depth { grid_cell(x, y) } else { NOWHERE };
         }
     })
 }
@@ -114,24 +135,28 @@ fn vertices<C: Column<Value: Zeroable>>(world: &mut TileWorld, side: Side, count
 }
 
 /// A number for every chain's state that differs where any coordinate does, but for accidents of one in 2⁶⁴.
-pub(super) fn digests(world: &mut TileWorld, side: Side, capacity: usize, chains: usize) -> Vec<u64> {
-    let depths = depths(world, side, chains);
-    let deepest = depths.iter().max().map_or(0, |&depth| depth as usize);
-    let count = deepest * capacity;
+pub(super) fn digests(world: &mut TileWorld, side: Side, chains: usize) -> Vec<u64> {
+    let place = *world.world().resource::<TilePlace>();
+    let depths = depths(world, side);
+    let deepest = depths.iter().max().copied().unwrap_or(0);
+    let count = place.vertex(0, deepest + 1 - place.first_coordinate.min(deepest + 1));
     let film = film(world, side, chains);
     let choice = vertices::<PrimaryChoice>(world, side, count);
     let light = vertices::<PrimaryLight>(world, side, count);
     let scatter = vertices::<PrimaryScatter>(world, side, count);
     let roulette = vertices::<PrimaryRoulette>(world, side, count);
+    let lobe = vertices::<PrimaryLobe>(world, side, count);
     let digest = |chain: usize| {
-        let mut digest = Digest(u64::from(depths[chain]));
+        let mut digest = Digest(0);
         film[chain].into_iter().for_each(|c| digest.add(c));
-        for depth in 0..depths[chain] as usize {
-            let vertex = depth * capacity + chain;
-            digest.add(choice[vertex]);
-            digest.add(u64::from(roulette[vertex]));
-            for [x, y] in [light[vertex], scatter[vertex]] {
-                digest.add(u64::from(x) << 32 | u64::from(y));
+        for path in place.subpaths(chain) {
+            digest.add(u64::from(depths[path]));
+            for vertex in (place.first_coordinate..=depths[path]).map(|depth| place.coordinate(path, depth)) {
+                digest.add(choice[vertex]);
+                digest.add(u64::from(roulette[vertex]) << 32 | u64::from(lobe[vertex]));
+                for [x, y] in [light[vertex], scatter[vertex]] {
+                    digest.add(u64::from(x) << 32 | u64::from(y));
+                }
             }
         }
         digest.0

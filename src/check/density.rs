@@ -139,7 +139,6 @@ pub(super) fn run_state(replicas: &mut Replicas<'_>, first: u32, batches: u32) -
 /// What tells states apart: the target's bits, and a digest of the coordinates.
 fn states(replicas: &mut Replicas<'_>, side: Side) -> Vec<(u32, u64)> {
     let targets = replicas.targets(side);
-    let capacity = replicas.subject.capacity();
-    let digests = digests(&mut replicas.world, side, capacity, targets.len());
+    let digests = digests(&mut replicas.world, side, targets.len());
     targets.into_iter().map(f32::to_bits).zip(digests).collect()
 }

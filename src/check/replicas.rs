@@ -8,12 +8,12 @@ use crate::chain::{
 };
 use crate::film::{BlockGrid, GroupFilm};
 use crate::path::ChainTable;
-use crate::plan::{ChainPlan, ChainSettings, Plan, PlanOptions, Registry, Technique};
+use crate::plan::{Base, ChainPlan, ChainSettings, Plan, PlanOptions, Registry, Technique};
 use crate::render::TileWorld;
 use crate::scene::Scene;
 use crate::systems::Run;
 use crate::systems::chains::{ChainStatistics, GroupPlace, MutationLists, Mutations};
-use crate::systems::tile::{FilmBlocks, GroupFilmRef, SceneRef};
+use crate::systems::tile::{FilmBlocks, GroupFilmRef, SceneRef, StrategiesRef};
 use std::sync::{Arc, Mutex};
 
 /// Replicas that run side by side.
@@ -38,7 +38,7 @@ impl Subject {
     pub(super) fn new(
         registry: Registry,
         name: &'static str,
-        technique: Technique,
+        (technique, base): (Technique, Base),
         scene: &Arc<Scene>,
         seed: u64,
     ) -> Result<Self, CheckError> {
@@ -51,6 +51,7 @@ impl Subject {
                 densities: true,
             },
             mutations: registry,
+            base,
             ..PlanOptions::default()
         };
         let plan = Plan::with(scene, technique, &options)?;
@@ -83,6 +84,9 @@ impl Subject {
             world.insert_resource(SceneRef(Arc::clone(&self.scene)));
             world.insert_resource(GroupFilmRef(Arc::new(Mutex::new(film))));
             world.insert_resource(FilmBlocks(Arc::clone(&self.blocks)));
+            if let Some(strategies) = self.plan.strategies {
+                world.insert_resource(StrategiesRef(strategies));
+            }
             for (number, planned) in mutations.iter().enumerate() {
                 planned.mutation.register(number, world);
             }
@@ -93,11 +97,6 @@ impl Subject {
             first: 0,
             chains: 0,
         })
-    }
-
-    /// Chains that a tile has room for.
-    pub(super) const fn capacity(&self) -> usize {
-        self.plan.tile.size as usize
     }
 }
 

@@ -9,7 +9,7 @@ use super::report::{Report, SHOWN, TestKind, TestOutcome, Tested};
 use super::sheet::Sums;
 use super::witness::witness;
 use super::{density, stationary};
-use crate::plan::{AnyMutation, Plan, Registry, StateSpace, Support, Technique};
+use crate::plan::{AnyMutation, Base, Plan, Registry, StateSpace, Support, Technique};
 use crate::scene::Scene;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -28,6 +28,8 @@ pub struct Options {
     pub density_depth: u32,
     /// Numbers of steps after which states are looked at, ascending.
     pub steps: Vec<u64>,
+    /// What primary-sample-space chains run over.
+    pub base: Base,
     /// Seed of all random numbers.
     pub seed: u64,
     /// Threads. Reports do not depend on it.
@@ -43,6 +45,7 @@ impl Default for Options {
             density_replicas: 1 << 20,
             density_depth: 2,
             steps: vec![1, 2, 8],
+            base: Base::default(),
             seed: 0,
             threads: 1,
             significance: 0.01,
@@ -288,7 +291,8 @@ impl Check<'_> {
     }
 
     fn subject(&self, registry: Registry, scene: &Arc<Scene>) -> Result<Subject, CheckError> {
-        Subject::new(registry, self.mutation.name(), self.technique, scene, self.options.seed)
+        let (name, options) = (self.mutation.name(), self.options);
+        Subject::new(registry, name, (self.technique, options.base), scene, options.seed)
     }
 
     /// Runs `replicas` replicas on all threads, in batches of chains that no other run has.

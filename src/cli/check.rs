@@ -5,7 +5,7 @@ use super::interrupt;
 use super::load::MutationArgs;
 use super::output::{note, print};
 use crate::check::{CheckError, Options, Report, built_in_scene, run_watched};
-use crate::plan::Registry;
+use crate::plan::{Base, Registry};
 use crate::scene::{Scene, SceneOverrides, flatten, read_scene};
 use crate::stats::normal::sidak;
 use clap::Args;
@@ -32,6 +32,9 @@ pub struct CheckArgs {
     /// Twenty times the replicas: biases of a quarter the size show
     #[arg(long)]
     thorough: bool,
+    /// What chains in primary sample space run over: pt or bdpt
+    #[arg(long, value_name = "NAME", default_value_t)]
+    base: Base,
     /// Seed of all random numbers: the same seed gives the same verdicts
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
@@ -75,6 +78,7 @@ pub fn run(args: &CheckArgs, registry: &Registry) -> Result<ExitCode> {
     }
     let scene = scene(args)?;
     let options = Options {
+        base: args.base,
         seed: args.seed,
         threads: args.threads.count(),
         significance: sidak(SIGNIFICANCE, names.len()),

@@ -84,7 +84,8 @@ fn write_state(out: &mut String, title: &str, state: &State) {
     if let Some(film) = &state.film {
         write_film(out, film);
     }
-    write_coordinates(out, &state.coordinates);
+    write_coordinates(out, "coordinates ", &state.coordinates);
+    write_coordinates(out, "of the light", &state.light_coordinates);
     write_splats(out, &state.splats);
     line!(out, "  unmoved for  {} steps", state.rejections);
 }
@@ -111,13 +112,13 @@ fn write_film(out: &mut String, film: &FilmStart) {
     );
 }
 
-fn write_coordinates(out: &mut String, coordinates: &[Coordinates]) {
+fn write_coordinates(out: &mut String, name: &str, coordinates: &[Coordinates]) {
     if coordinates.is_empty() {
         return;
     }
     line!(
         out,
-        "  coordinates  depth  scatter              light       point on it          roulette"
+        "  {name} depth  scatter              light       point on it          roulette"
     );
     for vertex in coordinates {
         let [s, t] = vertex.scatter;
@@ -158,15 +159,22 @@ fn write_proposal(out: &mut String, proposal: &Proposal) {
     if let Some(film) = &proposal.film {
         write_film(out, film);
     }
-    write_coordinates(out, &proposal.coordinates);
+    write_coordinates(out, "coordinates ", &proposal.coordinates);
+    write_coordinates(out, "of the light", &proposal.light_coordinates);
     for vertex in &proposal.vertices {
         write_vertex(out, vertex);
     }
-    line!(out, "  light        {}", colour(proposal.contribution));
-    if let Some(booked) = proposal.booked
-        && !proposal.contribution.is_finite()
-    {
-        line!(out, "  booked as    {}: it is not finite", colour(booked));
+    if !proposal.light_vertices.is_empty() {
+        line!(out, "  from the light");
+    }
+    for vertex in &proposal.light_vertices {
+        write_vertex(out, vertex);
+    }
+    if let Some(contribution) = proposal.contribution {
+        line!(out, "  light        {}", colour(contribution));
+        if let Some(booked) = proposal.booked.filter(|_| !contribution.is_finite()) {
+            line!(out, "  booked as    {}: it is not finite", colour(booked));
+        }
     }
     if let Some(target) = proposal.target {
         line!(out, "  f(y)         {target:e}");

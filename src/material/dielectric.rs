@@ -10,7 +10,8 @@
 //! Use it on closed shapes: glass, water, gems; a single sheet of it is an interface, not a pane. It is discrete, and a
 //! caustic behind it is found by path tracing only where a path happens to meet the light. Radiance is scaled by the
 //! squared ratio of indices as it crosses (Veach 1997, §5.2); on the way out again the scale returns. An interface
-//! between equal indices is not there: it reflects nothing and bends nothing.
+//! between equal indices reflects nothing and bends nothing; if it also lets all light pass, it is left out of the scene, and
+//! crossings of it count for no edge of a path.
 
 use super::{MaterialKind, Model, ScatterDraw, Scattered, Transport, fresnel};
 use crate::color::Rgb;

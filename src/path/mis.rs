@@ -57,8 +57,7 @@ impl Heuristic {
             Self::Balance => ratio,
             Self::Power => ratio * ratio,
         };
-        // In this order so that NaN becomes zero.
-        odds.min(MAX_ODDS).max(0.0)
+        if odds.is_nan() { 0.0 } else { odds.min(MAX_ODDS) }
     }
 
     /// The weight of a sample drawn with density `own` where one other technique would have drawn it with density `other`.

@@ -180,7 +180,12 @@ fn by_kind(scene: &Scene, effect: Effect) -> (bool, String) {
     let used = materials(scene, |kind| Effect::of(kind) == effect);
     let names: Vec<&str> = kinds().map(|kind| kind.name()).collect();
     if used.is_empty() {
-        (false, format!("no shape has a {} material", names.join(" or ")))
+        let null = scene.null_primitives;
+        let mut reason = format!("no shape has a {} material", names.join(" or "));
+        if effect == Effect::Refraction && null > 0 {
+            reason += &format!(" that does something; {null} primitives between equal indices are not there");
+        }
+        (false, reason)
     } else {
         (true, format!("{}: {}", names.join(", "), list(&used)))
     }

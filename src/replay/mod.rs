@@ -18,7 +18,6 @@ pub use state::{Classes, Coordinates, FilmStart, SplatAt, State};
 use crate::plan::{Plan, Technique};
 use crate::render::{LoneChain, LoneStart, RenderError};
 use crate::scene::Scene;
-use crate::table::LANES;
 use serde::Serialize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -158,9 +157,9 @@ pub fn replay(
         }
         progress(Part::Steps, 1.0);
     }
-    let before = state::current(&mut lone.world, scene, &lone.blocks, LANES);
+    let before = state::current(&mut lone.world, scene, &lone.blocks);
     lone.step(step);
-    let after = state::current(&mut lone.world, scene, &lone.blocks, LANES);
+    let after = state::current(&mut lone.world, scene, &lone.blocks);
     let mutation = before
         .as_ref()
         .and_then(|before| proposal::chosen(&mut lone, plan, before));

@@ -5,6 +5,7 @@ use crate::color::Rgb;
 use crate::path::*;
 use crate::render::TileWorld;
 use crate::scene::Scene;
+use crate::systems::tile::TilePlace;
 use serde::Serialize;
 
 /// A vertex of a path.
@@ -12,8 +13,8 @@ use serde::Serialize;
 pub struct Vertex {
     /// Edges between it and the camera.
     pub depth: u32,
-    /// What it is: `lens`, `surface` (scatters with a density, or ends the path) or `discrete` (scatters into one of a few
-    /// directions).
+    /// What it is: `lens`, `light` (where a light subpath starts), `surface` (scatters with a density, or ends the path),
+    /// `discrete` (scatters into one of a few directions) or `infinite` (a direction without a position).
     pub kind: &'static str,
     /// World-space position.
     pub position: [f32; 3],
@@ -59,17 +60,21 @@ pub struct Surface {
     pub material: Option<String>,
 }
 
-/// The vertices of the only path in `world`, whose tables hold `capacity` chains, and the light that they add up to: the sum
+/// The vertices of a subpath of the only chain in `world`, and the light that they add up to: the sum
 /// of [`Vertex::light`] in the order and the arithmetic of the evaluate stage, before anything is made of values that are
 /// not finite.
-pub(super) fn vertices(world: &mut TileWorld, scene: &Scene, capacity: usize) -> (Vec<Vertex>, Rgb) {
-    let Some(length) = world.at::<PathLength, ChainTable>(0) else {
-        return (Vec::new(), Rgb::BLACK);
+pub(super) fn vertices(world: &mut TileWorld, scene: &Scene, subpath: Option<usize>) -> (Vec<Vertex>, Rgb) {
+    let nothing = || (Vec::new(), Rgb::BLACK);
+    let Some(subpath) = subpath else { return nothing() };
+    let length = world.at::<PathLength, ChainTable>(subpath);
+    let Some(length) = length.filter(|&length| length != NO_SUBPATH) else {
+        return nothing();
     };
+    let place = *world.world().resource::<TilePlace>();
     let mut path: Vec<Vertex> = Vec::new();
     let (mut sum, mut throughput) = (Rgb::BLACK, Rgb::ONE);
     for depth in 0..=length {
-        let index = depth as usize * capacity;
+        let index = place.vertex(subpath, depth);
         if let Some(previous) = path.last() {
             throughput *= previous.ratio;
         }
@@ -99,6 +104,8 @@ fn vertex(world: &mut TileWorld, scene: &Scene, depth: u32, index: usize) -> Ver
         kind: match world.at::<VertexKind, ProposalTable>(index) {
             Some(VERTEX_DISCRETE) => "discrete",
             Some(VERTEX_LENS) => "lens",
+            Some(VERTEX_LIGHT) => "light",
+            Some(VERTEX_INFINITE) => "infinite",
             _ => "surface",
         },
         position: world

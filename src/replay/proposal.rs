@@ -3,7 +3,8 @@
 use super::number::number;
 use super::path::{Vertex, vertices};
 use super::state::{
-    Classes, Coordinates, FilmStart, SplatAt, State, classes, column_and_row, coordinates, film_start, splats,
+    Classes, Coordinates, FilmStart, SplatAt, State, camera_path, classes, column_and_row, coordinates, film_start,
+    light_path, splats,
 };
 use crate::chain::{
     Acceptance, Booking, ChosenMutation, CommonDensity, ForwardDensity, KeyChain, ProposedClass, ProposedTarget,
@@ -18,7 +19,6 @@ use crate::scene::Scene;
 use crate::systems::chains::Mutations;
 use crate::systems::list::WEIGH_CHOICES;
 use crate::systems::tile::TilePlace;
-use crate::table::LANES;
 use serde::{Serialize, Serializer};
 
 /// The mutation that was tried.
@@ -44,11 +44,15 @@ pub struct Proposal {
     pub film: Option<FilmStart>,
     /// The primary coordinates of its vertices; none where random numbers are drawn and not kept.
     pub coordinates: Vec<Coordinates>,
+    /// Those of its light subpath, where it has one.
+    pub light_coordinates: Vec<Coordinates>,
     /// Its vertices, the lens first.
     pub vertices: Vec<Vertex>,
-    /// Its light, summed from its vertices: f/p, W sr⁻¹ m⁻².
+    /// Those of its light subpath, the light first.
+    pub light_vertices: Vec<Vertex>,
+    /// Its light, summed from its vertices: f/p, W sr⁻¹ m⁻². None where subpaths are joined: then it is in the splats alone.
     #[serde(serialize_with = "number")]
-    pub contribution: Rgb,
+    pub contribution: Option<Rgb>,
     /// What the film is given of it where samples are independent: black if it is not finite.
     #[serde(serialize_with = "number")]
     pub booked: Option<Rgb>,
@@ -57,7 +61,7 @@ pub struct Proposal {
     pub target: Option<f32>,
     /// Its classes, in chains.
     pub class: Option<Classes>,
-    /// What it adds to the film for a weight of one, in chains.
+    /// What it adds to the film for a weight of one, in chains and where subpaths are joined.
     pub splats: Vec<SplatAt>,
     /// How likely it was, in chains.
     pub densities: Option<Densities>,
@@ -134,21 +138,24 @@ pub(super) fn chosen(lone: &mut LoneChain, plan: &Plan, before: &State) -> Optio
 /// What was proposed in the step that was taken last.
 pub(super) fn proposal(lone: &mut LoneChain, scene: &Scene, plan: &Plan, chosen: Option<&Chosen>) -> Proposal {
     let world = &mut lone.world;
-    let (vertices, contribution) = vertices(world, scene, LANES);
-    let depth = world.at::<ProposedDepth, ChainTable>(0).unwrap_or(0);
+    let (camera, light) = (camera_path(world), light_path(world));
+    let (vertices, contribution) = self::vertices(world, scene, camera);
+    let (light_vertices, _) = self::vertices(world, scene, light);
     let count = world.at::<ProposedSplatCount, ChainTable>(0).unwrap_or(0);
     let class = world.at::<ProposedClass, ChainTable>(0);
     Proposal {
         film: film(world, scene),
-        coordinates: coordinates::<ProposedPrimaryTable>(world, depth, LANES),
+        coordinates: coordinates::<ProposedDepth, ProposedPrimaryTable>(world, camera),
+        light_coordinates: coordinates::<ProposedDepth, ProposedPrimaryTable>(world, light),
         vertices,
-        contribution,
+        light_vertices,
+        contribution: plan.strategies.is_none().then_some(contribution),
         booked: world
             .at::<Contribution, ChainTable>(0)
             .filter(|_| plan.chains.is_none()),
         target: world.at::<ProposedTarget, ChainTable>(0),
         class: class.map(|number| classes(number, &lone.blocks)),
-        splats: splats::<ProposedSplatTable>(world, count, scene, LANES),
+        splats: splats::<ProposedSplatTable>(world, count, scene),
         densities: chosen.and_then(|chosen| densities(world, plan, chosen)),
     }
 }

@@ -7,6 +7,7 @@ use crate::film::BlockGrid;
 use crate::path::*;
 use crate::render::TileWorld;
 use crate::scene::Scene;
+use crate::systems::tile::TilePlace;
 use crate::table::{Column, Table};
 use serde::Serialize;
 
@@ -20,8 +21,10 @@ pub struct State {
     pub class: Classes,
     /// Where its path starts.
     pub film: Option<FilmStart>,
-    /// The primary coordinates of its vertices, from depth 1 to where its path ended.
+    /// The primary coordinates of its vertices, to where its path ended.
     pub coordinates: Vec<Coordinates>,
+    /// Those of its light subpath, where it has one.
+    pub light_coordinates: Vec<Coordinates>,
     /// What it adds to the film, for a weight of one.
     pub splats: Vec<SplatAt>,
     /// Steps since the chain last moved.
@@ -84,18 +87,18 @@ pub struct SplatAt {
     pub color: Rgb,
 }
 
-/// The current state of the only chain in `world`, whose tables hold `capacity` chains; none where there are no states.
-pub(super) fn current(world: &mut TileWorld, scene: &Scene, blocks: &BlockGrid, capacity: usize) -> Option<State> {
+/// The current state of the only chain in `world`; none where there are no states.
+pub(super) fn current(world: &mut TileWorld, scene: &Scene, blocks: &BlockGrid) -> Option<State> {
     let target = world.at::<Target, ChainTable>(0)?;
     let film = world.at::<PrimaryFilm, ChainTable>(0);
-    let depth = world.at::<PrimaryDepth, ChainTable>(0).unwrap_or(0);
     let splats = world.at::<SplatCount, ChainTable>(0).unwrap_or(0);
     Some(State {
         target,
         class: classes(world.at::<Class, ChainTable>(0).unwrap_or_default(), blocks),
         film: film.map(|bits| film_start(FilmCoordinates(bits), scene)),
-        coordinates: coordinates::<PrimaryTable>(world, depth, capacity),
-        splats: self::splats::<SplatTable>(world, splats, scene, capacity),
+        coordinates: coordinates::<PrimaryDepth, PrimaryTable>(world, camera_path(world)),
+        light_coordinates: coordinates::<PrimaryDepth, PrimaryTable>(world, light_path(world)),
+        splats: self::splats::<SplatTable>(world, splats, scene),
         rejections: world.at::<Rejections, ChainTable>(0).unwrap_or(0),
     })
 }
@@ -128,10 +131,29 @@ pub(super) fn column_and_row(pixel: u32, scene: &Scene) -> [u32; 2] {
     [pixel % width, pixel / width]
 }
 
-/// The coordinates of the vertices of depths 1 to `depth` in the table marked `T`.
-pub(super) fn coordinates<T: Table>(world: &mut TileWorld, depth: u32, capacity: usize) -> Vec<Coordinates> {
+/// The subpath of the only chain that starts at the camera, if there is one.
+pub(super) fn camera_path(world: &TileWorld) -> Option<usize> {
+    (world.world().resource::<TilePlace>().lights_from > 0).then_some(0)
+}
+
+/// The subpath of the only chain that starts at a light, if there is one.
+pub(super) fn light_path(world: &TileWorld) -> Option<usize> {
+    let place = world.world().resource::<TilePlace>();
+    (place.lights_from < place.capacity).then_some(place.lights_from as usize)
+}
+
+/// The coordinates of a subpath's vertices in the table marked `T`, to the depth that column `D` has.
+pub(super) fn coordinates<D: Column<Value = u32>, T: Table>(
+    world: &mut TileWorld,
+    path: Option<usize>,
+) -> Vec<Coordinates> {
+    let Some(path) = path else { return Vec::new() };
+    let Some(last) = world.at::<D, ChainTable>(path) else {
+        return Vec::new();
+    };
+    let place = *world.world().resource::<TilePlace>();
     let mut of_depth = |depth: u32| {
-        let index = (depth - 1) as usize * capacity;
+        let index = place.coordinate(path, depth);
         let choice = value::<PrimaryChoice, T>(world, index);
         let bits = VertexCoordinates {
             choice: choice.unwrap_or_default(),
@@ -150,13 +172,14 @@ pub(super) fn coordinates<T: Table>(world: &mut TileWorld, depth: u32, capacity:
             roulette: (depth >= roulette::FIRST_DEPTH).then(|| bits.roulette_draw()),
         }
     };
-    (1..=depth).map(&mut of_depth).collect()
+    (place.first_coordinate..=last).map(&mut of_depth).collect()
 }
 
 /// The first `count` splats in the table marked `T`.
-pub(super) fn splats<T: Table>(world: &mut TileWorld, count: u32, scene: &Scene, capacity: usize) -> Vec<SplatAt> {
+pub(super) fn splats<T: Table>(world: &mut TileWorld, count: u32, scene: &Scene) -> Vec<SplatAt> {
+    let place = *world.world().resource::<TilePlace>();
     let mut of_number = |number: u32| {
-        let index = number as usize * capacity;
+        let index = place.vertex(0, number);
         SplatAt {
             pixel: column_and_row(value::<SplatPixel, T>(world, index).unwrap_or_default(), scene),
             color: value::<SplatColor, T>(world, index).unwrap_or(Rgb::BLACK),

@@ -3,6 +3,7 @@
 use super::flatten::{Emission, Flattened, Geometry as Shape};
 use super::{Mesh, SceneDescription};
 use crate::camera::Camera;
+use crate::color::Rgb;
 use crate::film::{Filter, FilterError};
 use crate::geometry::{BoundingSphere, Geometry, Instance, InstanceShape, NOT_EMITTING};
 use crate::light::{Emitter, EmitterShape, LightTable};
@@ -34,6 +35,8 @@ pub struct Scene {
     pub light_names: Vec<String>,
     /// Names of all instances, by number.
     pub instance_names: Vec<String>,
+    /// Primitives that do nothing to light, and are not there.
+    pub null_primitives: u64,
 }
 
 /// What the command line says about a scene, beyond its file.
@@ -81,6 +84,7 @@ impl Scene {
             filter,
             max_depth: overrides.max_depth.unwrap_or(description.settings.max_depth),
             light_names: lit.map(|instance| &instance.name).chain(named).cloned().collect(),
+            null_primitives: tables.left_out,
             instance_names: flattened.instances.iter().map(|i| i.name.clone()).collect(),
         })
     }
@@ -112,14 +116,18 @@ struct Tables {
     emitters: Vec<Emitter>,
     /// From a flattened material's number to that of the compiled table, which holds only used ones.
     numbers: Vec<Option<u32>>,
+    /// Flattened materials that do nothing to light: surfaces of them that do not emit are left out.
+    null: Vec<bool>,
+    left_out: u64,
 }
 
 impl Tables {
     fn new(flattened: &Flattened) -> Self {
+        let null: Vec<bool> = flattened.materials.iter().map(|(_, m)| m.is_null()).collect();
         let mut used = vec![false; flattened.materials.len()];
         for instance in &flattened.instances {
-            for &material in instance.geometry.materials() {
-                used[material as usize] = true;
+            for (primitive, &material) in instance.geometry.materials().iter().enumerate() {
+                used[material as usize] |= !(null[material as usize] && instance.emission.of(primitive).is_black());
             }
         }
         let named = |name: &str| {
@@ -141,7 +149,16 @@ impl Tables {
             materials,
             emitters: Vec::new(),
             numbers,
+            null,
+            left_out: 0,
         }
+    }
+
+    /// Whether a primitive of this material and with this emission is not there.
+    fn leaves_out(&mut self, material: u32, radiance: Rgb) -> bool {
+        let out = self.null[material as usize] && radiance.is_black();
+        self.left_out += u64::from(out);
+        out
     }
 
     fn add(&mut self, shape: &Shape, emission: &Emission) {
@@ -194,6 +211,9 @@ impl Tables {
     }
 
     fn add_mesh(&mut self, mesh: &Mesh, emission: &Emission) {
+        let kept: Vec<usize> = (0..mesh.triangles.len())
+            .filter(|&triangle| !self.leaves_out(mesh.materials[triangle], emission.of(triangle)))
+            .collect();
         let textured = self.needs_frames();
         let geometry = &mut self.geometry;
         let first_primitive = geometry.materials.len() as u32;
@@ -201,7 +221,7 @@ impl Tables {
         geometry.instances.push(Instance {
             shape: InstanceShape::Mesh {
                 first_triangle: geometry.triangles.len() as u32,
-                triangle_count: mesh.triangles.len() as u32,
+                triangle_count: kept.len() as u32,
                 first_vertex: geometry.positions.len() as u32,
                 first_normal: (!mesh.normals.is_empty()).then_some(geometry.normals.len() as u32),
                 first_uv: has_uvs.then_some(geometry.uvs.len() as u32),
@@ -216,20 +236,26 @@ impl Tables {
         }
         geometry.positions.extend_from_slice(&mesh.positions);
         geometry.normals.extend_from_slice(&mesh.normals);
-        geometry.triangles.extend_from_slice(&mesh.triangles);
-        for (triangle, &material) in mesh.materials.iter().enumerate() {
+        geometry
+            .triangles
+            .extend(kept.iter().map(|&triangle| mesh.triangles[triangle]));
+        for triangle in kept {
             let emitter = Emitter {
                 shape: EmitterShape::Triangle(mesh.corners(triangle)),
                 radiance: emission.of(triangle),
                 area: mesh.area(triangle),
             };
-            self.add_primitive(material, emitter);
+            self.add_primitive(mesh.materials[triangle], emitter);
         }
     }
 
     /// A shape that is one primitive.
     fn add_round(&mut self, shape: InstanceShape, frame: Mat3, material: u32, emitter: Emitter) {
         let first_primitive = self.geometry.materials.len() as u32;
+        if self.leaves_out(material, emitter.radiance) {
+            // Instances are numbered as the shapes of the scene file.
+            return self.add_mesh(&Mesh::default(), &Emission::None);
+        }
         self.geometry.instances.push(Instance { shape, first_primitive });
         if self.needs_frames() {
             self.geometry.frames.push(frame);
@@ -270,6 +296,33 @@ mod tests {
         let flattened = flatten(&source).expect("shapes");
         let scene = Scene::compile(&source.description, &flattened, SceneOverrides::default());
         scene.expect("the box filter can be sampled").geometry
+    }
+
+    /// A sphere and a box of these materials, and a lamp.
+    fn of_glass(glass: &str) -> Scene {
+        let shapes = "Box(min: (0, 0, 0), max: (1, 1, 1)), material: \"white\"), (shape: Sphere(radius: 1)";
+        let text = scene_of(shapes, "").replace("Diffuse(reflectance: (0.5, 0.5, 0.5))", glass);
+        let source = parse_scene("test.ron", &text, Format::Ron, Path::new("")).expect("a scene");
+        let flattened = flatten(&source).expect("shapes");
+        Scene::compile(&source.description, &flattened, SceneOverrides::default()).expect("a scene")
+    }
+
+    #[test]
+    fn interfaces_that_do_nothing_are_not_there() {
+        let there = |ior, transmittance| {
+            let scene = of_glass(&format!(
+                "Dielectric(interior_ior: {ior}, exterior_ior: 1.5, transmittance: {transmittance})"
+            ));
+            assert_eq!(scene.geometry.instance_count(), scene.instance_names.len());
+            (
+                scene.geometry.primitive_count(),
+                scene.null_primitives,
+                scene.materials.len(),
+            )
+        };
+        assert_eq!(there("1.5", "(1, 1, 1)"), (0, 13, 0));
+        assert_eq!(there("1.5", "(1, 1, 0.5)"), (13, 0, 1));
+        assert_eq!(there("1.500015", "(1, 1, 1)"), (13, 0, 1));
     }
 
     #[test]

@@ -12,9 +12,9 @@ use crate::chain::{
 use crate::color::Rgb;
 use crate::film::Splat;
 use crate::path::{
-    BookedWeight, ChainTable, CoordinateColumns, CoordinateColumnsMut, Decisions, FilmCoordinates, LENS_CENTER,
-    LightDraw, PathDraws, PrimaryDepth, PrimaryFilm, PrimaryTable, ProposedPrimaryTable, SplatColor, SplatCount,
-    SplatPixel, SplatTable, VertexCoordinates, target_of,
+    BookedWeight, ChainTable, CoordinateColumns, CoordinateColumnsMut, Decisions, FilmCoordinates, LightDraw,
+    PathDraws, PrimaryDepth, PrimaryFilm, PrimaryTable, ProposedPrimaryTable, SplatColor, SplatCount, SplatPixel,
+    SplatTable, VertexCoordinates, target_of,
 };
 use crate::plan::MovesVertices;
 use crate::sampling::{Purpose, StreamKey};
@@ -73,12 +73,13 @@ struct MovedDraws<'a, 'b> {
 impl PathDraws for MovedDraws<'_, '_> {
     #[inline]
     fn lens(&mut self) -> [f32; 2] {
-        LENS_CENTER
+        self.reach(0);
+        self.here.scatter_draw()
     }
 
     #[inline]
     fn reach(&mut self, depth: u32) {
-        let vertex = self.place.vertex(self.chain, depth - 1);
+        let vertex = self.place.coordinate(self.chain, depth);
         self.here = if depth <= self.current_depth {
             self.mutation.vertex(self.current.at(vertex), self.key, depth)
         } else {
@@ -185,7 +186,7 @@ pub fn mutate_depth_first(
         if accepted {
             states.films.put(chain, start.0);
             states.depths.put(chain, depth);
-            for vertex in (0..depth).map(|d| place.vertex(chain, d)) {
+            for vertex in (place.first_coordinate..=depth).map(|d| place.coordinate(chain, d)) {
                 current.put(vertex, proposed.shared().at(vertex));
             }
             states.take(chain, &proposal);

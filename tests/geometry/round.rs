@@ -212,7 +212,7 @@ fn a_hit_on_a_disk_or_a_tube_is_where_the_ray_was_aimed() {
         let radius = dice.magnitude(0.1, 2.0);
         let axis = dice.direction();
         let (x, y) = axis.as_dvec3().normalize().any_orthonormal_pair();
-        let angle = f64::from(dice.between(0.0, 6.28));
+        let angle = f64::from(dice.between(0.0, std::f32::consts::TAU));
         let around = x * libm::cos(angle) + y * libm::sin(angle);
         let (geometry, target, normal) = if round % 2 == 0 {
             let out = f64::from(dice.between(0.0, 0.99) * radius);

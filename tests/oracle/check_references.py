@@ -10,7 +10,9 @@
    emission and the depth convention.
 4. light tracing: what Mitsuba's particle tracer, which builds its paths from the light, finds on the
    surfaces that the camera sees directly, caustics included, against the reference.
-5. brute force: the whole picture against brute_force.py, which shares no code with Mitsuba.
+5. the block of index 1.00001 in cornell-near-index-one, which Mitsuba refracts at, against the one of index 1 in
+   cornell-index-one, which it leaves out.
+6. brute force: the whole picture against brute_force.py, which shares no code with Mitsuba.
 
 Every comparison prints its z-scores and the smallest relative difference that it would have noticed
 (4 standard errors). Exit status 1 if one fails.
@@ -75,7 +77,8 @@ def compare(name, mean, runs, expected, expected_variance):
 
 def check_colours():
     values = cornell_spectra.scene_values()
-    for name in ("cornell-box", "cornell-glass"):
+    cornell = ("box", "glass", "index-one", "near-index-one", "glossy")
+    for name in (f"cornell-{kind}" for kind in cornell):
         scene = ron.load(scene_path(name))
         materials = {key: m.fields for key, m in scene["materials"].items()}
         lights = [entry["emission"] for entry in scene["shapes"] if "emission" in entry]
@@ -196,6 +199,13 @@ def check_light_tracing(name, pixels, runs=24, spp=1024):
         )
 
 
+def check_same_picture(name, other):
+    """Two references must show the same light, up to their noise."""
+    (mean, variance), (expected, expected_variance) = reference(name), reference(other)
+    z = (blocks(mean, 4) - blocks(expected, 4)) / np.sqrt(blocks(variance + expected_variance, 4) / 16)
+    verdict(f"{name} as {other}", abs(z).max() < 4.5, f"{z.size} block channels, largest |z| {abs(z).max():.2f}")
+
+
 def check_brute_force(name, runs=30, spp=448, width=4):
     scene = brute_force.Scene(scene_path(name))
     mean, variance = reference(name)
@@ -228,6 +238,10 @@ def main():
     }
     check_light_tracing("cornell-box", box)
     check_light_tracing("cornell-glass", glass)
+    glossy = {"ceiling": (slice(0, 3), slice(2, 22)), "back wall": (slice(6, 9), slice(6, 18))}
+    check_light_tracing("cornell-glossy", glossy)
+    # Mitsuba refracts at the one block, and leaves the other out.
+    check_same_picture("cornell-index-one", "cornell-near-index-one")
     for name in ("cornell-box", "cornell-glass"):
         check_brute_force(name)
     sys.exit(1 if FAILURES else 0)

@@ -5,6 +5,8 @@ block is built: mitsuba_camera.py, mitsuba_materials.py, mitsuba_shapes.py, mits
 
 * `max_depth` counts edges in both: 1 sees emitters only, 2 adds direct light.
 * Emission is one-sided in both, on the side of the geometric normal.
+* A clear interface between media of one and the same index is left out: it is nothing. So what is behind it
+  is not noise here, and paths through it have fewer edges than ours.
 
 `mitsuba.set_variant` must have been called with an rgb variant.
 """
@@ -32,6 +34,13 @@ def max_depth(path):
     return ron.load(path).get("settings", {}).get("max_depth", 16)
 
 
+def is_nothing(material):
+    """Whether a material is an interface that changes no path."""
+    f = material.fields
+    indices = (f.get("interior_ior"), f.get("exterior_ior", 1))
+    return material.name == "Dielectric" and indices[0] == indices[1] and set(f) <= {"interior_ior", "exterior_ior"}
+
+
 def scene(path, width, height, sampler="independent"):
     """The Mitsuba scene of the file at `path`, with a film of `width` x `height` pixels."""
     path = Path(path)
@@ -45,6 +54,8 @@ def scene(path, width, height, sampler="independent"):
     parts |= mitsuba_lights.lights(description.get("lights", []), directory)
     for index, entry in enumerate(description["shapes"]):
         take(entry, ["shape", "material"], ["name", "emission", "transform"])
+        if is_nothing(description["materials"][entry["material"]]) and "emission" not in entry:
+            continue
         part = shape(entry["shape"], transform(entry.get("transform", [])), directory)
         part["bsdf"] = Materials(description, directory, texture_map(entry["shape"])).named(entry["material"])
         if "emission" in entry:
@@ -72,8 +83,9 @@ def particle_tracer(depth):
 
 
 def files(description):
-    """The files that a scene names, in the order in which it names them: textures, lights, shapes."""
-    named = [*description.get("textures", {}).values(), *description.get("lights", [])]
+    """The files that a scene names: those of textures by name, of lights, of shapes in order."""
+    named = [texture for _, texture in sorted(description.get("textures", {}).items())]
+    named += description.get("lights", [])
     named += [entry["shape"] for entry in description["shapes"]]
     return [part.fields["file"] for part in named if "file" in part.fields]
 

@@ -13,8 +13,8 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 const SAMPLES: usize = 400_000;
-/// Irradiances of three environments.
-const FAMILY: Family = Family { tests: 3 };
+/// Irradiances of three environments, and light that three send through a window.
+const FAMILY: Family = Family { tests: 6 };
 const SCENE: BoundingSphere = BoundingSphere {
     center: Vec3::new(1.0, 0.0, -1.0),
     radius: 2.0,
@@ -184,6 +184,34 @@ fn the_sky_lights_the_ground_with_its_radiance() {
     let spread = estimate.error * (totals.len() as f64).sqrt() / estimate.mean;
     assert!(spread < 0.1, "{spread}");
     assert!(table.radiance(0, Vec3::Y, Vec3::Y).is_black());
+}
+
+/// What is sent through a window of the scene is what arrives there: its irradiance times its area.
+#[test]
+fn light_that_is_sent_arrives_as_it_is_seen() {
+    let sun = Sun::disc(DVec3::new(1.0, 2.0, -1.0), 5.0, Rgb::splat(4.0));
+    let lights = [
+        ("sky", sky()),
+        ("constant", Light::Constant(Constant { radiance: Rgb::ONE })),
+        ("disc", Light::Sun(sun)),
+    ];
+    for (case, (name, light)) in lights.into_iter().enumerate() {
+        let table = table(vec![light]);
+        let seen = Estimate::of(&irradiance(&table, Vec3::Y, 20 + case));
+        let mut stream = stream(970 + case);
+        let mut through = || {
+            let choice = stream.next_f64();
+            let point = stream.next_pair();
+            let ray = table.emit(choice, point, stream.next_pair())?;
+            let (origin, direction) = ((ray.origin - SCENE.center).as_dvec3(), ray.direction.as_dvec3());
+            let met = origin - direction * (origin.y / direction.y);
+            let inside = direction.y < 0.0 && met.x.abs() < 1.0 && met.z.abs() < 1.0;
+            inside.then(|| 0.25 * f64::from(ray.ratio.g))
+        };
+        let sent: Vec<f64> = (0..5 * SAMPLES).map(|_| through().unwrap_or(0.0)).collect();
+        let slack = 3.0 * seen.error;
+        FAMILY.is(name, Estimate::of(&sent), seen.mean, slack, 0.02);
+    }
 }
 
 #[test]

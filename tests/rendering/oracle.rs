@@ -5,13 +5,25 @@
 
 use super::{box_filtered, picture};
 use crate::support::reference::{SIZE, assert_same_light, disagreements, over_runs, reference, statistics};
+use crate::support::verdict::say;
 use chainlight::film::Picture;
 use chainlight::plan::Technique;
-use chainlight::scene::{ShapeKind, read_scene};
+use chainlight::scene::{LightDescription, SceneDescription, ShapeKind, TextureDescription, read_scene};
 use chainlight::stats::z_test::Estimate;
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
+const REFERENCES: [&str; 9] = [
+    "cornell-box",
+    "cornell-glass",
+    "cornell-glossy",
+    "cornell-index-one",
+    "cornell-near-index-one",
+    "cornell-window",
+    "depth-of-field",
+    "island",
+    "veach-plates",
+];
 const RUNS: u64 = 48;
 const STEPS: u64 = 160;
 
@@ -64,18 +76,92 @@ fn the_glass_box_is_right_to_the_noise() {
     agree("cornell-glass.ron");
 }
 
-/// A reference says nothing of a scene that has changed since: its hash is over the scene file and its meshes in order.
+/// Holds that a technique finds the light of a scene, and that a reference whose brightness is off by `bias` would be refused.
+fn finds(scene: &str, technique: Technique, bias: f64) {
+    let reference = reference(scene);
+    let found = estimates(scene, technique, 4_000, 1.0);
+    let (failed, visible) = disagreements(RUNS, &found, &reference);
+    let name = format!("{scene}, {} against the reference", technique.name());
+    say(&format!(
+        "{name}: smallest visible bias of the image mean {:.2} %",
+        100.0 * visible
+    ));
+    assert_eq!(failed, 0, "{name}: {failed} of {} statistics differ", found.len());
+    for brightness in [1.0 - bias, 1.0 + bias] {
+        let planted = reference.iter().map(|e| Estimate {
+            mean: e.mean * brightness,
+            error: e.error * brightness,
+        });
+        let (seen, _) = disagreements(RUNS, &found, &planted.collect::<Vec<_>>());
+        assert!(seen > 0, "{name}: {brightness} times as bright, it goes unnoticed");
+    }
+}
+
+/// Rough conductors of both distributions, one of them anisotropic; plastic; a rough dielectric.
+#[test]
+fn glossy_things_in_the_cornell_box_are_right_to_the_noise() {
+    finds("cornell-glossy.ron", Technique::Pt, 0.02);
+}
+
+#[test]
+fn plates_of_rough_metal_are_right_to_the_noise() {
+    finds("veach-plates.ron", Technique::Pt, 0.04);
+}
+
+/// Sun and sky, which are met and sampled.
+#[test]
+fn daylight_through_a_window_is_right_to_the_noise() {
+    finds("cornell-window.ron", Technique::Pt, 0.02);
+}
+
+/// An orthographic camera, a directional light, a constant environment, a height field, disks, cylinders, a bitmap.
+#[test]
+fn an_island_under_parallel_rays_is_right_to_the_noise() {
+    finds("island.ron", Technique::Pt, 0.02);
+}
+
+/// A thin lens, point and spot lights, tori, checkerboards on a plane and on a turned sphere, a sheet of two sides.
+#[test]
+fn what_a_lens_blurs_is_right_to_the_noise() {
+    finds("depth-of-field.ron", Technique::Pt, 0.04);
+}
+
+/// Direct light crosses the block twice refracted, or, as Mitsuba has it, not at all.
+#[test]
+fn a_block_of_nothing_is_not_seen() {
+    finds("cornell-index-one.ron", Technique::Bdpt, 0.03);
+    finds("cornell-near-index-one.ron", Technique::Bdpt, 0.03);
+}
+
+/// A reference says nothing of a scene that has changed since: its hash is over the scene file and the files that it names,
+/// textures by name, then lights, then shapes in order.
 #[test]
 fn the_references_are_of_the_scenes_as_they_are() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for name in ["cornell-box", "cornell-glass"] {
+    for name in REFERENCES {
         let path = root.join("scenes").join(name).with_extension("ron");
         let source = read_scene(&path).unwrap_or_else(|error| panic!("{}", error.plain()));
-        let mut files = vec![path];
-        files.extend(source.description.shapes.iter().filter_map(|shape| match &shape.shape {
-            ShapeKind::Obj { file, .. } => Some(root.join("scenes").join(file)),
+        let SceneDescription {
+            textures,
+            lights,
+            shapes,
+            ..
+        } = &source.description;
+        let textures = textures.values().filter_map(|texture| match texture {
+            TextureDescription::Bitmap { file, .. } => Some(file),
+            TextureDescription::Checkerboard { .. } => None,
+        });
+        let lights = lights.iter().filter_map(|light| match light {
+            LightDescription::Environment { file, .. } => file.as_ref(),
             _ => None,
-        }));
+        });
+        let shapes = shapes.iter().filter_map(|shape| match &shape.shape {
+            ShapeKind::Obj { file, .. } => Some(file),
+            ShapeKind::HeightField { file, .. } => file.as_ref(),
+            _ => None,
+        });
+        let named = textures.chain(lights).chain(shapes);
+        let files = std::iter::once(path).chain(named.map(|file| root.join("scenes").join(file)));
         let mut digest = Sha256::new();
         for file in files {
             digest.update(std::fs::read(file).expect("a shipped file"));

@@ -148,7 +148,7 @@ fn shown_offer(replay: &Replay, width: u32) -> Offered {
         film: proposal.film.as_ref().and_then(|film| film.bits).expect("a start").0,
         coordinates: bits(&proposal.coordinates),
         length: proposal.vertices.len() as u32 - 1,
-        light: proposal.contribution.to_array().map(f32::to_bits),
+        light: proposal.contribution.expect("light").to_array().map(f32::to_bits),
         target: proposal.target.expect("chains have targets").to_bits(),
         class: proposal.class.as_ref().expect("chains have classes").number,
         splats: splat_bits(&proposal.splats, width),
@@ -209,7 +209,7 @@ fn the_vertices_add_up_to_the_proposals_light_and_target() {
     let plan = plan(&scene, None, false);
     for step in 0..60 {
         let replay = look(&scene, &plan, 21, step);
-        let (sum, light) = (summed(&replay), replay.proposal.contribution.to_array());
+        let (sum, light) = (summed(&replay), replay.proposal.contribution.expect("light").to_array());
         assert_eq!(sum.map(f32::to_bits), light.map(f32::to_bits), "step {step}");
         let target = replay.proposal.target.expect("chains have targets");
         assert_eq!(target.to_bits(), (sum[0] + sum[1] + sum[2]).to_bits(), "step {step}");

@@ -24,7 +24,12 @@ fn a_pixels_sample_is_the_one_that_the_render_took() {
                 let replay = look(&scene, &Plan::new(&scene, Technique::Pt, tile), pixel, step);
                 let booked = replay.proposal.booked.expect("samples are booked").to_array();
                 assert_eq!(booked.map(f32::to_bits), taken, "pixel {pixel}, sample {step}");
-                let light = replay.proposal.contribution.to_array().map(f32::to_bits);
+                let light = replay
+                    .proposal
+                    .contribution
+                    .expect("light")
+                    .to_array()
+                    .map(f32::to_bits);
                 assert_eq!(light, taken, "pixel {pixel}, sample {step}");
                 assert_eq!(summed(&replay).map(f32::to_bits), taken, "pixel {pixel}, sample {step}");
                 let start = replay.proposal.film.expect("a start");

@@ -26,14 +26,14 @@ fn rough_metals_reflect_as_their_density_says() {
             for cosine in [1.0, 0.6, 0.05, -0.6] {
                 case += 1;
                 let (metal, wi) = (copper(distribution, alpha), incoming(cosine));
-                let counts = sphere_counts(&metal, wi, draws(case, SAMPLES));
+                let counts = Heights::Even.counts(&metal, wi, draws(case, SAMPLES));
                 let name = format!("{distribution:?} {alpha:?}, cosine {cosine}");
-                FAMILY.follows(&name, &counts, &sphere_expected(&metal, wi, 0.0), SEES);
+                FAMILY.follows(&name, &counts, &Heights::Even.expected(&metal, wi, 0.0), SEES);
                 let rougher = copper(distribution, alpha.map(|a| 1.05 * a));
                 FAMILY.refuses(
                     &format!("{name}, 5 % off"),
                     &counts,
-                    &sphere_expected(&rougher, wi, 0.0),
+                    &Heights::Even.expected(&rougher, wi, 0.0),
                 );
             }
         }
@@ -55,11 +55,15 @@ fn ground_glass_reflects_and_refracts_as_its_density_says() {
             ] {
                 case += 1;
                 let (glass, wi) = (ground(distribution, alpha, ior), incoming(cosine));
-                let counts = sphere_counts(&glass, wi, draws(case, SAMPLES));
+                let counts = Heights::WidePoles.counts(&glass, wi, draws(case, SAMPLES));
                 let name = format!("{distribution:?} {alpha:?}, index {ior}, cosine {cosine}");
-                FAMILY.follows(&name, &counts, &sphere_expected(&glass, wi, 0.0), SEES);
+                FAMILY.follows(&name, &counts, &Heights::WidePoles.expected(&glass, wi, 0.0), SEES);
                 let denser = ground(distribution, alpha, 1.03 * ior);
-                FAMILY.refuses(&format!("{name}, 3 % off"), &counts, &sphere_expected(&denser, wi, 0.0));
+                FAMILY.refuses(
+                    &format!("{name}, 3 % off"),
+                    &counts,
+                    &Heights::WidePoles.expected(&denser, wi, 0.0),
+                );
             }
         }
     }
@@ -84,17 +88,17 @@ fn plastic_mirrors_and_scatters_as_its_density_says() {
                 .sample(&PLAIN, wi, draw, Transport::Radiance)
                 .filter(|sample| sample.discrete);
             let discrete = mirrored.map_or(0.0, |sample| f64::from(sample.density));
-            let counts = sphere_counts(&plastic, wi, draws(case, SAMPLES));
+            let counts = Heights::Even.counts(&plastic, wi, draws(case, SAMPLES));
             let name = format!("index {ior}, cosine {cosine}, mirrored {discrete:.3}");
-            let expected = sphere_expected(&plastic, wi, discrete);
+            let expected = Heights::Even.expected(&plastic, wi, discrete);
             if discrete == 1.0 {
-                assert_eq!(counts[sphere().len()], SAMPLES as u64, "{name}");
+                assert_eq!(counts[Heights::Even.sphere().len()], SAMPLES as u64, "{name}");
                 continue;
             }
             FAMILY.follows(&name, &counts, &expected, SEES);
             if discrete < 0.9 {
                 let mut off = expected;
-                let cells = sphere().len();
+                let cells = Heights::Even.sphere().len();
                 let moved = 0.05 * (1.0 - discrete);
                 off[..cells].iter_mut().for_each(|share| *share *= 0.95);
                 off[cells] += moved;

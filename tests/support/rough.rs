@@ -11,8 +11,6 @@ use chainlight::material::{Model, ScatterDraw, Scattered, Transport};
 use glam::{DVec3, Vec3};
 
 pub const DISTRIBUTIONS: [Distribution; 2] = [Distribution::Ggx, Distribution::Beckmann];
-/// Points in every cell.
-const POINTS: u32 = 1200;
 /// The largest uniform number.
 const LAST: f32 = 1.0 - 0.5 * f32::EPSILON;
 /// The share of a cell that the rule says is empty.
@@ -89,14 +87,35 @@ pub fn counts(
     counts
 }
 
+/// Where a density is looked up in every cell.
+#[derive(Clone, Copy, Debug)]
+pub enum Points {
+    /// At 40 x 40 midpoints: exact for lobes inside a cell, since they are smooth.
+    Rows,
+    /// At points that fill the cell evenly without rows (Roberts 2018: multiples of powers of the root p of p³ = p + 1): edges
+    /// of lobes that run along the cell would be missed a row at a time.
+    Spread,
+}
+
+impl Points {
+    fn list(self) -> Vec<[f64; 2]> {
+        const SIDE: u32 = 40;
+        const SPREAD: u32 = 2400;
+        const P: f64 = 1.324_717_957_244_746;
+        match self {
+            Self::Rows => (0..SIDE * SIDE)
+                .map(|k| [k % SIDE, k / SIDE].map(|i| (f64::from(i) + 0.5) / f64::from(SIDE)))
+                .collect(),
+            Self::Spread => (0..SPREAD)
+                .map(|k| [P, P * P].map(|power| ((f64::from(k) + 0.5) / power).fract()))
+                .collect(),
+        }
+    }
+}
+
 /// What the counts should be in proportion to: `density` per unit of the grid's coordinates, a discrete lobe, and the rest.
-/// Integrated over every cell by points of a sequence that fills it evenly (Roberts 2018: multiples of powers of the root p of
-/// p³ = p + 1): edges of lobes run through cells, and with rows of points would be missed a row at a time.
-pub fn expected(grid: &Grid, discrete: f64, density: impl Fn(f64, f64) -> f64) -> Vec<f64> {
-    const P: f64 = 1.324_717_957_244_746;
-    let points: Vec<[f64; 2]> = (0..POINTS)
-        .map(|k| [P, P * P].map(|power| ((f64::from(k) + 0.5) / power).fract()))
-        .collect();
+pub fn expected(grid: &Grid, points: Points, discrete: f64, density: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    let points = points.list();
     let (dx, dy) = (
         (grid.x[1] - grid.x[0]) / grid.columns as f64,
         (grid.y[1] - grid.y[0]) / grid.rows as f64,
@@ -107,7 +126,7 @@ pub fn expected(grid: &Grid, discrete: f64, density: impl Fn(f64, f64) -> f64) -
             grid.y[0] + dy * (i / grid.columns) as f64,
         );
         let sum: f64 = points.iter().map(|[u, v]| density(x + dx * u, y + dy * v)).sum();
-        sum * dx * dy / f64::from(POINTS)
+        sum * dx * dy / points.len() as f64
     };
     let mut cells: Vec<f64> = (0..grid.len()).map(cell).collect();
     let absorbed = 1.0 - discrete - cells.iter().sum::<f64>();
@@ -117,39 +136,65 @@ pub fn expected(grid: &Grid, discrete: f64, density: impl Fn(f64, f64) -> f64) -
     cells.into_iter().map(|share| share.max(LEAST_SHARE)).collect()
 }
 
-/// The whole sphere in 20 x 20 cells of the angle around and of t, with |z| = 1 − t²: lobes about the poles are as narrow as
-/// refraction makes them, and t widens them. The upper half has t > 0.
-pub fn sphere() -> Grid {
-    Grid::around([-1.0, 1.0])
+/// How heights z over the sphere are cut into cells.
+#[derive(Clone, Copy, Debug)]
+pub enum Heights {
+    /// Evenly.
+    Even,
+    /// By t with |z| = 1 − t², which widens lobes about the poles: what refracts is as narrow as the index makes it.
+    WidePoles,
 }
 
-/// Counts over the sphere of directions.
-pub fn sphere_counts(model: &impl Model, wi: Vec3, draws: impl Iterator<Item = ScatterDraw>) -> Vec<u64> {
-    counts(&sphere(), model, wi, draws, |sample| {
-        let [z, phi] = height_and_angle(sample.wo);
-        let from_pole = one_minus_cos(sample.wo.as_dvec3().with_z(z.abs()));
-        [from_pole.max(0.0).sqrt().min(1.0).copysign(z), phi]
-    })
-}
+impl Heights {
+    /// The whole sphere in 20 x 20 cells of the height, or what stands for it, and of the angle around.
+    pub fn sphere(self) -> Grid {
+        Grid::around([-1.0, 1.0])
+    }
 
-/// The density that a model states, over the sphere of directions.
-pub fn sphere_expected(model: &impl Model, wi: Vec3, discrete: f64) -> Vec<f64> {
-    expected(&sphere(), discrete, |t, phi| {
-        let wo = direction((1.0 - t * t).copysign(t), phi).as_vec3();
-        2.0 * t.abs() * f64::from(model.evaluate(&PLAIN, wi, wo, Transport::Radiance).density)
-    })
+    fn place(self, wo: Vec3) -> [f64; 2] {
+        let [z, phi] = height_and_angle(wo);
+        match self {
+            Self::Even => [z, phi],
+            Self::WidePoles => {
+                let from_pole = one_minus_cos(wo.as_dvec3().with_z(z.abs()));
+                [from_pole.clamp(0.0, 1.0).sqrt().copysign(z), phi]
+            }
+        }
+    }
+
+    /// Counts over the sphere of directions.
+    pub fn counts(self, model: &impl Model, wi: Vec3, draws: impl Iterator<Item = ScatterDraw>) -> Vec<u64> {
+        counts(&self.sphere(), model, wi, draws, |sample| self.place(sample.wo))
+    }
+
+    /// The density that a model states, over the sphere of directions.
+    pub fn expected(self, model: &impl Model, wi: Vec3, discrete: f64) -> Vec<f64> {
+        let points = match self {
+            Self::Even => Points::Rows,
+            Self::WidePoles => Points::Spread,
+        };
+        expected(&self.sphere(), points, discrete, |t, phi| {
+            let (z, stretch) = match self {
+                Self::Even => (t, 1.0),
+                Self::WidePoles => ((1.0 - t * t).copysign(t), 2.0 * t.abs()),
+            };
+            let wo = direction(z, phi).as_vec3();
+            stretch * f64::from(model.evaluate(&PLAIN, wi, wo, Transport::Radiance).density)
+        })
+    }
 }
 
 /// The mean ratio, split into reflection and transmission, over a grid of draws that is exact to about a ten-thousandth: it is
 /// denser towards the ends of the numbers that choose directions, where lobes have their tails, and the lobe number's
 /// share of each lobe is found by bisection.
 pub fn albedo(model: &impl Model, wi: Vec3, transport: Transport) -> [Rgb; 2] {
-    const SIDE: u32 = 100;
-    let mut sums = [[0.0_f64; 3]; 2];
+    const SIDE: u32 = 64;
+    let (mut sums, mut weights) = ([[0.0_f64; 3]; 2], 0.0);
     for cell in 0..SIDE * SIDE {
         let place = [cell % SIDE, cell / SIDE].map(|k| (f64::from(k) + 0.5) / f64::from(SIDE));
         let direction = place.map(|t| (t * t * (3.0 - 2.0 * t)) as f32);
         let weight: f64 = place.map(|t| 6.0 * t * (1.0 - t)).into_iter().product();
+        weights += weight;
         let sample = |lobe: f32| model.sample(&PLAIN, wi, ScatterDraw { direction, lobe }, transport);
         let lobe = |sample: &Option<Scattered>| sample.map(|sample| (sample.discrete, sample.wo.z * wi.z > 0.0));
         let (first, last) = (sample(0.0), sample(LAST));
@@ -178,5 +223,5 @@ pub fn albedo(model: &impl Model, wi: Vec3, transport: Transport) -> [Rgb; 2] {
             (0..3).for_each(|c| sums[side][c] += weight * share * f64::from(ratio[c]));
         }
     }
-    sums.map(|sum| Rgb::from(sum.map(|s| (s / f64::from(SIDE * SIDE)) as f32)))
+    sums.map(|sum| Rgb::from(sum.map(|s| (s / weights) as f32)))
 }

@@ -1,6 +1,8 @@
 //! Scenes of tests: those that ship, and those that a test writes.
 
-use chainlight::scene::{Format, Scene, SceneOverrides, SceneSource, flatten, parse_scene, read_scene};
+use chainlight::scene::{
+    Format, LightDescription, Scene, SceneOverrides, SceneSource, flatten, parse_scene, read_scene,
+};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -26,7 +28,27 @@ pub fn box_filtered(name: &str, size: u32, brightness: f32) -> Arc<Scene> {
     {
         *emission = *emission * brightness;
     }
+    source
+        .description
+        .lights
+        .iter_mut()
+        .for_each(|light| brighten(light, brightness));
     compile(&source, size)
+}
+
+fn brighten(light: &mut LightDescription, by: f32) {
+    match light {
+        LightDescription::Point { intensity: light, .. }
+        | LightDescription::Spot { intensity: light, .. }
+        | LightDescription::Directional { irradiance: light, .. } => *light = *light * by,
+        LightDescription::Environment { radiance, scale, .. } => {
+            *radiance = radiance.map(|radiance| radiance * by);
+            if radiance.is_none() {
+                *scale *= by;
+            }
+        }
+        LightDescription::Sun { scale, .. } | LightDescription::Sky { scale, .. } => *scale *= by,
+    }
 }
 
 /// A scene written in a test.

@@ -137,6 +137,28 @@ pub enum MaterialDescription {
     },
 }
 
+impl MaterialDescription {
+    /// Whether a surface of it does nothing to light: an interface between equal indices that lets all of it pass.
+    #[must_use]
+    pub fn is_null(&self) -> bool {
+        match self {
+            Self::Dielectric {
+                interior_ior,
+                exterior_ior,
+                transmittance,
+                ..
+            }
+            | Self::RoughDielectric {
+                interior_ior,
+                exterior_ior,
+                transmittance,
+                ..
+            } => interior_ior == exterior_ior && *transmittance == Rgb::ONE,
+            _ => false,
+        }
+    }
+}
+
 fn yes() -> bool {
     true
 }
