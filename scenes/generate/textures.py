@@ -60,8 +60,8 @@ def boards():
         length, along = divmod((y + shift) % size, size // 2)
         tone = lattice(board, length, 31)
         joint = across == 0 or along == 0
-        light = mix((0.72, 0.57, 0.42), (0.62, 0.47, 0.33), tone)
-        dark = mix((0.54, 0.40, 0.28), (0.46, 0.33, 0.22), tone)
+        light = mix((0.78, 0.70, 0.60), (0.70, 0.61, 0.50), tone)
+        dark = mix((0.62, 0.53, 0.43), (0.55, 0.46, 0.36), tone)
         value = mix(light, dark, grain(across / 32 * 0.5 + board * 0.37, y / 64, 7 + board, 1))
         return quantized(mix(value, (0.08, 0.05, 0.03), 0.8 if joint else 0))
 

@@ -129,8 +129,8 @@ fn what_a_lens_blurs_is_right_to_the_noise() {
 /// Direct light crosses the block twice refracted, or, as Mitsuba has it, not at all.
 #[test]
 fn a_block_of_nothing_is_not_seen() {
-    finds("cornell-index-one.ron", Technique::Bdpt, 0.03);
-    finds("cornell-near-index-one.ron", Technique::Bdpt, 0.03);
+    finds("cornell-index-one.ron", Technique::Bdpt, 0.02);
+    finds("cornell-near-index-one.ron", Technique::Bdpt, 0.02);
 }
 
 /// A reference says nothing of a scene that has changed since: its hash is over the scene file and the files that it names,
