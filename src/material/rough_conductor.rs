@@ -51,7 +51,7 @@ impl Model for RoughConductor {
     const KIND: MaterialKind = MaterialKind::RoughConductor;
 
     /// `None` where facets reflect into other facets, and on the black back of a one-sided surface.
-    #[inline]
+    #[inline(never)]
     fn sample(&self, at: &Shading<'_>, wi: Vec3, draw: ScatterDraw, _: Transport) -> Option<Scattered> {
         if wi.z == 0.0 || (wi.z < 0.0 && !self.two_sided) {
             return None;
@@ -74,7 +74,7 @@ impl Model for RoughConductor {
         .if_representable()
     }
 
-    #[inline]
+    #[inline(never)]
     fn evaluate(&self, at: &Shading<'_>, wi: Vec3, wo: Vec3, _: Transport) -> Evaluated {
         let over = wi.z < 0.0;
         if wi.z == 0.0 || wo.z == 0.0 || over != (wo.z < 0.0) || (over && !self.two_sided) {
