@@ -25,7 +25,7 @@ fn scene(material: &str, lights: &str, emission: &str, max_depth: u32) -> Arc<Sc
                 shapes: [
                     (shape: Quad(corner: (-4, -1, 4), edge_u: (8, 0, 0), edge_v: (0, 0, -8)), material: "floor"),
                     (shape: Box(min: (-1, -0.9, -1), max: (1, 1, 1)), material: "m"),
-                    (shape: Quad(corner: (-1, 3, -1), edge_u: (2, 0, 0), edge_v: (0, 0, 2)), material: "floor"{emission}),
+                    (shape: Quad(corner: (-1.5, 1.2, -2.2), edge_u: (3, 0, 0), edge_v: (0, 0.6, 1)), material: "floor"{emission}),
                 ])"#
         ),
         SIZE,
