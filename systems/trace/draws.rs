@@ -160,6 +160,9 @@ impl DrawColumns<'_> {
     pub fn splat(&self, path: usize, depth: u32) -> f32 {
         if self.coordinates.scatter.is_empty() {
             self.keyed(path).splat(depth)
+        } else if depth == 0 {
+            // Where a light subpath starts, its own numbers choose a point on the light. Those of the lens choose none.
+            self.coordinates_at(self.place.chain(path), 0).splat_draw()
         } else {
             self.coordinates_at(path, depth).splat_draw()
         }
