@@ -1,5 +1,6 @@
 //! One integration-test binary; each concern is a module beside this file.
 
+mod both_ends;
 mod broken_scenes;
 mod chains;
 mod check;

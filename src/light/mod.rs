@@ -55,6 +55,8 @@ struct EmitterPoint {
     position: Vec3,
     /// Unit geometric normal.
     normal: Vec3,
+    /// Unit direction from the reference point.
+    direction: Vec3,
     /// Density of the point per solid angle at the reference point, given the emitter.
     density: f32,
 }
@@ -67,6 +69,7 @@ impl EmitterPoint {
         (density > 0.0 && density.is_finite()).then_some(Self {
             position,
             normal,
+            direction: (position - from).normalize(),
             density,
         })
     }

@@ -41,6 +41,9 @@ pub(super) fn sample(center: Vec3, radius: f32, from: Vec3, u: [f32; 2]) -> Opti
     density.is_finite().then_some(EmitterPoint {
         position,
         normal: normal.as_vec3(),
+        // As drawn, not as the rounded positions have it: a point of the sphere itself that rounding put outside of it sees
+        // points of it so near that the direction between the two is any, and would be lit by them.
+        direction: direction.as_vec3(),
         density,
     })
 }
@@ -62,4 +65,27 @@ pub(super) fn point(center: Vec3, radius: f32, u: [f32; 2]) -> (Vec3, Vec3) {
     let normal = warp::uniform_sphere(u).as_dvec3().normalize();
     let position = center.as_dvec3() + normal * f64::from(radius);
     (position.as_vec3(), normal.as_vec3())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampling::{Purpose, StreamKey};
+
+    #[test]
+    fn a_sphere_does_not_shine_on_itself() {
+        let mut stream = StreamKey::new(1, 0, 0).stream(Purpose::LIGHT, 0);
+        let (center, radius) = (Vec3::new(0.7, 1.0, -0.2), 0.7);
+        let mut outside = 0;
+        for _ in 0..100_000 {
+            // Rounding puts some points of the sphere outside of it.
+            let (from, normal) = point(center, radius, stream.next_pair());
+            if let Some(sampled) = sample(center, radius, from, stream.next_pair()) {
+                outside += 1;
+                let above = sampled.direction.dot(normal);
+                assert!(above < 1e-6, "{from}: {sampled:?}, cosine {above}");
+            }
+        }
+        assert!(outside > 10_000, "{outside}");
+    }
 }

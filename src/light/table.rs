@@ -128,11 +128,11 @@ impl LightTable {
         if density == 0.0 {
             return None;
         }
-        let span = point.position - from;
+        let distance = (point.position - from).length();
         // The farther the light, the coarser the intersector's view of it, even in f64.
-        let offset = offset_distance(point.position, point.normal, emitter.area.sqrt() + span.length());
+        let offset = offset_distance(point.position, point.normal, emitter.area.sqrt() + distance);
         Some(LightSample {
-            direction: span.normalize(),
+            direction: point.direction,
             target: offset_origin(point.position, point.normal, offset, point.normal),
             radiance: emitter.radiance,
             density,

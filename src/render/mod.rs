@@ -64,6 +64,13 @@ pub enum RenderError {
         /// The technique.
         technique: &'static str,
     },
+    /// The plan has no samples of one pixel each.
+    #[error("{technique} does not sample one pixel at a time")]
+    #[diagnostic(help("start it with `chainlight::render::start`, which knows every technique"))]
+    NoSamples {
+        /// The technique.
+        technique: &'static str,
+    },
     /// The plan has no samples that bring light to many pixels.
     #[error("{technique} brings light to one pixel at a time")]
     #[diagnostic(help("plan a technique with both ends, such as bdpt"))]
@@ -119,6 +126,11 @@ impl Render {
     /// # Errors
     /// A film that does not fit, or threads that cannot be started.
     pub fn new(scene: Arc<Scene>, plan: Plan, seed: u64, threads: usize) -> Result<Self, RenderError> {
+        if plan.splat_films > 0 || plan.chains.is_some() {
+            return Err(RenderError::NoSamples {
+                technique: plan.technique.name(),
+            });
+        }
         let film = Arc::new(Film::new(scene.width, scene.height, scene.lights.max_radiance())?);
         let samples = Samples::new(&plan.tile, scene.pixel_count(), seed, threads, |world| {
             world.insert_resource(SceneRef(Arc::clone(&scene)));

@@ -8,9 +8,10 @@ mod world;
 
 use chainlight::film::Picture;
 use chainlight::plan::{Plan, Technique};
-use chainlight::render::{Render, Rendering};
+use chainlight::render::Render;
 use chainlight::scene::Scene;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use crate::support::scenes::{box_filtered, compile, inline, shipped};
 
@@ -22,7 +23,10 @@ pub fn start(scene: &Arc<Scene>, technique: Technique, seed: u64, threads: usize
 
 /// The picture of `steps` samples per pixel.
 pub fn picture(scene: &Arc<Scene>, technique: Technique, seed: u64, steps: u64) -> Picture {
-    let mut render = start(scene, technique, seed, 2, None);
+    let plan = Plan::new(scene, technique, None);
+    let nobody = AtomicBool::new(false);
+    let render = chainlight::render::start(Arc::clone(scene), plan, seed, 2, &nobody, &|_| {});
+    let mut render = render.expect("a small film and few threads");
     render.burst(steps, &|_| {});
-    render.film.develop()
+    render.picture()
 }
