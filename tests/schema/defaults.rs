@@ -67,7 +67,6 @@ fn writing_a_default_is_leaving_it_out() {
             }
         }
     }
-    println!("{count} defaults are real");
     assert!(count > 60, "{count}");
 }
 
@@ -161,7 +160,6 @@ fn descriptions_agree_with_what_they_describe() {
             }
         }
     }
-    println!("{defaults} defaults and {ranges} ranges in descriptions are right");
     assert!(defaults > 30 && ranges > 20, "{defaults} {ranges}");
 }
 

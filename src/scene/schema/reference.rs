@@ -169,7 +169,7 @@ impl Page<'_> {
 
     /// Bounds and unit, after `before` if there are any.
     fn range(&self, schema: &Value, before: &str) -> String {
-        if definition(schema).is_some() && !resolve(self.root, schema).get("anyOf").is_some() {
+        if definition(schema).is_some() && resolve(self.root, schema).get("anyOf").is_none() {
             return String::new();
         }
         let bounds = bounds(self.root, schema);
