@@ -3,7 +3,7 @@
 //! | parameter | meaning | unit | default |
 //! |---|---|---|---|
 //! | `metal` | a metal by its symbol, such as `"Au"` ([`METALS`](super::metals::METALS)) | | this, or `eta` and `k` |
-//! | `eta`, `k` | real part of the index of refraction, and absorption coefficient | none, >= 0 per channel | |
+//! | `eta`, `k` | real part of the index of refraction, and absorption coefficient | none, [0, 1000] per channel | |
 //! | `distribution` | of the facets' slopes: `Ggx` (long tails) or `Beckmann` | | `Ggx` |
 //! | `alpha` | roughness in all directions | none, [1e-4, 1] | this, or both of the next |
 //! | `alpha_u`, `alpha_v` | roughness along and across the direction in which the texture coordinate u grows | none, [1e-4, 1] | |
