@@ -174,7 +174,8 @@ fn removing_an_effect_removes_its_columns_and_systems() {
     let glass = "Dielectric(interior_ior: 1.5)";
     let frosted = "RoughDielectric(interior_ior: 1.5, alpha: 0.2)";
     // A material, one without the effect, and the effect's columns and systems; those of primary sample space apart.
-    let cases: [(&str, &str, Effect, &[&str], &[&str]); 7] = [
+    type Names = &'static [&'static str];
+    let cases: [(&str, &str, Effect, Names, Names); 7] = [
         (textured, WHITE, Effect::Textures, &["VertexTexture"], &[]),
         (
             round,
