@@ -35,6 +35,16 @@ impl Contender {
         Self { technique, base }
     }
 
+    /// How many of its samples take about the time of one of bidirectional path tracing with its noise: path tracing needs many
+    /// for the rare light that only it does not look for.
+    pub const fn samples(self) -> u64 {
+        match (self.technique, self.base) {
+            (Technique::Pt, _) => 8,
+            (Technique::Lt | Technique::Pssmlt, Base::Pt) => 4,
+            _ => 1,
+        }
+    }
+
     /// Options of its plan. A run has one group of chains: its error is told by other runs.
     pub fn options(self) -> PlanOptions {
         PlanOptions {

@@ -58,6 +58,10 @@ pub struct Verdict {
     pub failures: usize,
     /// The largest |t|.
     pub largest: f64,
+    /// The two estimates that differ by it.
+    pub worst: [Estimate; 2],
+    /// Its block; none for a mean over blocks.
+    pub block: Option<usize>,
     /// The smallest relative bias of the mean over all counted blocks that would be found, in the channel where it is largest.
     pub visible: f64,
 }
@@ -76,10 +80,17 @@ pub fn compare(a: &BlockMeans, b: &BlockMeans, counted: &[bool], tests: usize) -
         let threshold = t_quantile(1.0 - 0.5 * sidak(ALPHA, tests), test.degrees_of_freedom);
         test.error * (threshold + upper_quantile(1.0 - POWER)) / b.mean
     });
+    let size = |i: &usize| compared[*i].t.abs();
+    let worst = (0..compared.len())
+        .max_by(|a, b| size(a).total_cmp(&size(b)))
+        .unwrap_or_default();
+    let mut blocks = (0..counted.len()).filter(|&block| counted[block]);
     Verdict {
         statistics: compared.len(),
         failures: compared.iter().filter(|test| !test.passes(ALPHA, tests)).count(),
-        largest: compared.iter().map(|test| test.t.abs()).fold(0.0, f64::max),
+        largest: size(&worst),
+        worst: [a[worst], b[worst]],
+        block: (worst / CHANNELS).checked_sub(1).and_then(|number| blocks.nth(number)),
         visible: visible.fold(0.0, f64::max),
     }
 }

@@ -12,6 +12,7 @@ pub mod small_step;
 mod small_support;
 mod start_camera_paths;
 mod start_light_paths;
+pub mod starts;
 
 pub use assign_pixels::assign_pixels;
 pub use choose_mutation::choose_mutation;

@@ -31,7 +31,7 @@ const GOLDEN: [(Contender, &str); 3] = [
     ),
     (
         Contender::of(Technique::Pssmlt, Base::Bdpt),
-        "d6f0af77ade02ca3fb231bf8672bb3bf663b60b40b8ed57de4c76f93e317b578",
+        "7435beb389948852ac1e762f768d0d82c7bda754340de531a762f7f2bac46eb2",
     ),
 ];
 

@@ -3,8 +3,14 @@
 //! The runs and comparisons are those of the example `agreement`, which holds all techniques against each other on every shipped
 //! scene at length.
 
+mod adjoint;
+mod agree;
 mod bytes;
 mod densities;
+mod errors;
+mod film;
+mod index_one;
+mod plans;
 mod strategies;
 mod weights;
 
@@ -13,8 +19,15 @@ mod agreement;
 
 use crate::support::verdict::say;
 use agreement::{BlockMeans, Contender, Pictures, compare};
+use chainlight::color::Rgb;
+use chainlight::geometry::NOT_EMITTING;
+use chainlight::path::bidirectional::EndVertex;
+use chainlight::path::*;
 use chainlight::plan::PlanOptions;
+use chainlight::render::TileWorld;
 use chainlight::scene::Scene;
+use chainlight::systems::tile::TilePlace;
+use glam::Vec3;
 use std::sync::Arc;
 
 /// Runs of a technique that cannot fail on a test's scene.
@@ -41,4 +54,43 @@ fn assert_same_light(case: &str, a: &BlockMeans, b: &BlockMeans, counted: &[bool
         let planted = compare(&a.scaled(factor), b, counted, tests);
         assert!(planted.failures > 0, "{case}: light times {factor} goes unnoticed");
     }
+}
+
+/// A subpath of a world after a step of bidirectional path tracing, read from its columns.
+fn subpath(world: &mut TileWorld, path: usize) -> Vec<EndVertex> {
+    let place = *world.world().resource::<TilePlace>();
+    let length = world.at::<PathLength, ChainTable>(path).unwrap_or(NO_SUBPATH);
+    if length == NO_SUBPATH {
+        return Vec::new();
+    }
+    let mut throughput = Rgb::ONE;
+    let read = |depth| {
+        let v = place.vertex(path, depth);
+        let vector = |value: Option<Vec3>| value.unwrap_or_default();
+        let arrival = vector(world.at::<VertexArrival, ProposalTable>(v));
+        let here = throughput;
+        throughput *= world.at::<VertexRatio, ProposalTable>(v).unwrap_or(Rgb::BLACK);
+        EndVertex {
+            surface: Scatterer {
+                position: vector(world.at::<VertexPosition, ProposalTable>(v)),
+                normal: vector(world.at::<VertexNormal, ProposalTable>(v)),
+                shading_normal: vector(world.at::<VertexShadingNormal, ProposalTable>(v)),
+                offset: world.at::<VertexOffset, ProposalTable>(v).unwrap_or_default(),
+                material: world.at::<VertexMaterial, ProposalTable>(v).unwrap_or_default(),
+                uv: glam::Vec2::ZERO,
+                tangent: Vec3::ZERO,
+                direction: if depth == 0 { Vec3::ZERO } else { arrival },
+            },
+            kind: world.at::<VertexKind, ProposalTable>(v).unwrap_or_default(),
+            light: world.at::<VertexLight, ProposalTable>(v).unwrap_or(NOT_EMITTING),
+            forward: world
+                .at::<VertexForward, ProposalTable>(v)
+                .expect("weights compare strategies"),
+            tail: world
+                .at::<VertexTail, ProposalTable>(v)
+                .expect("weights compare strategies"),
+            throughput: here,
+        }
+    };
+    (0..=length).map(read).collect()
 }

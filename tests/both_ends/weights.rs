@@ -8,17 +8,17 @@
 //! round, at a point, in one direction, all around; pinhole, lens and parallel rays. Paths have up to six edges.
 
 use super::densities::{Mistake, Node, WholePath};
+use super::subpath;
 use crate::support::draws::stream;
 use crate::support::scenes::inline;
 use crate::support::verdict::say;
 use chainlight::color::Rgb;
-use chainlight::geometry::NOT_EMITTING;
 use chainlight::light::Endpoint;
 use chainlight::path::bidirectional::{EndVertex, Join, Strategies, Weights};
 use chainlight::path::mis::Heuristic;
 use chainlight::path::*;
 use chainlight::plan::{Plan, PlanOptions, Technique};
-use chainlight::render::{Rendering, SplatRender, TileWorld};
+use chainlight::render::{Rendering, SplatRender};
 use chainlight::sampling::Stream;
 use chainlight::scene::Scene;
 use chainlight::systems::tile::TilePlace;
@@ -99,42 +99,6 @@ fn scene(camera: &str, light: &str, lights: &str) -> Arc<Scene> {
         ),
         SIZE,
     )
-}
-
-/// A subpath of a world, read from its columns. Of throughputs, which weights have nothing to do with, it knows none.
-fn subpath(world: &mut TileWorld, path: usize) -> Vec<EndVertex> {
-    let place = *world.world().resource::<TilePlace>();
-    let length = world.at::<PathLength, ChainTable>(path).unwrap_or(NO_SUBPATH);
-    if length == NO_SUBPATH {
-        return Vec::new();
-    }
-    let read = |depth| {
-        let v = place.vertex(path, depth);
-        let vector = |value: Option<Vec3>| value.unwrap_or_default();
-        let arrival = vector(world.at::<VertexArrival, ProposalTable>(v));
-        EndVertex {
-            surface: Scatterer {
-                position: vector(world.at::<VertexPosition, ProposalTable>(v)),
-                normal: vector(world.at::<VertexNormal, ProposalTable>(v)),
-                shading_normal: vector(world.at::<VertexShadingNormal, ProposalTable>(v)),
-                offset: world.at::<VertexOffset, ProposalTable>(v).unwrap_or_default(),
-                material: world.at::<VertexMaterial, ProposalTable>(v).unwrap_or_default(),
-                uv: Vec2::ZERO,
-                tangent: Vec3::ZERO,
-                direction: if depth == 0 { Vec3::ZERO } else { arrival },
-            },
-            kind: world.at::<VertexKind, ProposalTable>(v).unwrap_or_default(),
-            light: world.at::<VertexLight, ProposalTable>(v).unwrap_or(NOT_EMITTING),
-            forward: world
-                .at::<VertexForward, ProposalTable>(v)
-                .expect("weights compare strategies"),
-            tail: world
-                .at::<VertexTail, ProposalTable>(v)
-                .expect("weights compare strategies"),
-            throughput: Rgb::ONE,
-        }
-    };
-    (0..=length).map(read).collect()
 }
 
 /// A light sampled by strategy s = 1, as a vertex.
