@@ -9,5 +9,5 @@ mod family;
 mod sight;
 
 pub use contender::{Contender, Pictures, runs};
-pub use family::{ALPHA, BlockMeans, Verdict, compare, statistics};
+pub use family::{BlockMeans, compare, statistics};
 pub use sight::seen_by_light_tracing;

@@ -208,7 +208,6 @@ fn both_ends_are_right_to_the_noise() {
         ("cornell-glossy.ron", bdpt, 0.02),
         ("depth-of-field.ron", bdpt, 0.05),
         ("island.ron", bdpt, 0.03),
-        ("veach-plates.ron", bdpt, 0.02),
     ];
     for (name, contender, sees) in cases {
         let scene = box_filtered(name, PIXELS, 1.0);

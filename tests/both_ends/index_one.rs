@@ -10,7 +10,7 @@ use super::{assert_same_light, block_means};
 use crate::support::render::picture_bytes;
 use crate::support::scenes::inline;
 use chainlight::plan::{Plan, Technique};
-use chainlight::render::{Rendering, start};
+use chainlight::render::start;
 use chainlight::scene::Scene;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
