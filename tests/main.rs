@@ -12,4 +12,5 @@ mod rendering;
 mod replay;
 mod samplers;
 mod scene_fuzz;
+mod schema;
 mod support;

@@ -4,8 +4,8 @@
 //! |---|---|---|---|
 //! | `origin` | the centre of the film's image in the scene; what lies behind it is not seen | scene units, world | required |
 //! | `target` | a point that projects to the centre of the film | scene units, world | required |
-//! | `up` | a direction that points up in the picture | world, any length | +y |
-//! | `height` | what the film's height spans | scene units, (0, 1e9] | required |
+//! | `up` | a direction that points up in the picture | world, any length but zero | (0, 1, 0) |
+//! | `height` | what the film's height spans | scene units, [1e-9, 1e9] | required |
 //!
 //! Use it for plans and elevations, and for pictures to measure in. The width follows from the film's shape; pixels are
 //! square. A pixel is the radiance towards the camera, averaged over the pixel's image.

@@ -4,8 +4,8 @@
 //! |---|---|---|---|
 //! | `origin` | the pinhole | scene units, world | required |
 //! | `target` | a point that projects to the centre of the film | scene units, world | required |
-//! | `up` | a direction that points up in the picture | world, any length | +y |
-//! | `fov` | full angle of view across the film's side named by `fov_axis` | degrees, (0, 180) | required |
+//! | `up` | a direction that points up in the picture | world, any length but zero | (0, 1, 0) |
+//! | `fov` | full angle of view across the film's side named by `fov_axis` | degrees, [1e-4, 179.9999] | required |
 //! | `fov_axis` | `Horizontal`, `Vertical`, `Smaller` or `Larger` | | `Vertical` |
 
 use super::frame::{FilmPlane, Pose};

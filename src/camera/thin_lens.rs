@@ -4,11 +4,11 @@
 //! |---|---|---|---|
 //! | `origin` | the centre of the lens | scene units, world | required |
 //! | `target` | a point that projects to the centre of the film | scene units, world | required |
-//! | `up` | a direction that points up in the picture | world, any length | +y |
-//! | `fov` | full angle of view across the film's side named by `fov_axis` | degrees, (0, 180) | required |
+//! | `up` | a direction that points up in the picture | world, any length but zero | (0, 1, 0) |
+//! | `fov` | full angle of view across the film's side named by `fov_axis` | degrees, [1e-4, 179.9999] | required |
 //! | `fov_axis` | `Horizontal`, `Vertical`, `Smaller` or `Larger` | | `Vertical` |
-//! | `aperture_radius` | radius of the lens: focal length / (2 · f-number) | scene units, (0, 1e9] | required |
-//! | `focus_distance` | from the lens to the plane that is in focus, along the view | scene units, (0, 1e9] | to `target` |
+//! | `aperture_radius` | radius of the lens: focal length / (2 · f-number) | scene units, [1e-9, 1e9] | required |
+//! | `focus_distance` | from the lens to the plane that is in focus, along the view | scene units, [1e-9, 1e9] | to `target` |
 //!
 //! Use it where blur tells depth. Each sample needs two more numbers, and blurred highlights many more samples; where
 //! everything is to be sharp, `Perspective` costs less. The picture is that of `Perspective` at the focal plane, whatever

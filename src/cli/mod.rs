@@ -15,6 +15,7 @@ pub mod render;
 pub mod replay;
 mod replay_text;
 mod report;
+pub mod schema;
 mod target;
 
 use crate::plan::Registry;
@@ -43,6 +44,8 @@ enum Command {
     Compare(compare::CompareArgs),
     /// Try to refute mutations: hold them against the target, detailed balance, and their own densities.
     Check(check::CheckArgs),
+    /// Print the scene format as a JSON Schema, for editors, or as a reference page.
+    Schema(schema::SchemaArgs),
 }
 
 /// Runs the command that the arguments name, with the mutations of this crate.
@@ -66,5 +69,6 @@ pub fn run_with(cli: &Cli, registry: &Registry) -> miette::Result<ExitCode> {
         Command::Check(args) => check::run(args, registry),
         Command::Replay(args) => replay::run(args, registry),
         Command::Compare(args) => compare::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Schema(args) => schema::run(args).map(|()| ExitCode::SUCCESS),
     }
 }

@@ -155,32 +155,8 @@ impl Geometry {
                 let radius = f64::from(radius);
                 (center.as_dvec3() + normal * radius, normal, normal, radius)
             }
-            InstanceShape::Disk { center, normal, radius } => {
-                let [normal, x, y] = disk::basis(normal);
-                let center_distance = hit.uv.length();
-                let r = f64::from(radius);
-                let inset = rim_inset(center.as_dvec3().abs().max_element() + r, r) + disk::slack(center, radius);
-                let most = 1.0 - (inset / r).min(MOST_INSET);
-                let uv = if center_distance > most {
-                    hit.uv * (most / center_distance)
-                } else {
-                    hit.uv
-                };
-                let position = center.as_dvec3() + (x * uv.x + y * uv.y) * r;
-                (position, normal, normal, r)
-            }
-            InstanceShape::Cylinder { from, to, radius } => {
-                let [_, x, y] = cylinder::basis(from, to);
-                let around = cylinder::direction(hit.uv.x);
-                let normal = x * around.x + y * around.y;
-                let (r, axis) = (f64::from(radius), to.as_dvec3() - from.as_dvec3());
-                let size = axis.length() + r;
-                let coordinates = from.as_dvec3().abs().max(to.as_dvec3().abs()).max_element() + r;
-                let inset = rim_inset(coordinates, size) + cylinder::slack(from, to, radius);
-                let least = (inset / axis.length()).min(MOST_INSET);
-                let along = hit.uv.y.clamp(least, 1.0 - least);
-                (from.as_dvec3() + axis * along + normal * r, normal, normal, size)
-            }
+            InstanceShape::Disk { center, normal, radius } => disk_point(center, normal, radius, hit.uv),
+            InstanceShape::Cylinder { from, to, radius } => cylinder_point([from, to], radius, hit.uv),
         };
         let global = (instance.first_primitive + hit.primitive) as usize;
         let position = position.as_vec3();
@@ -194,6 +170,42 @@ impl Geometry {
             light: self.lights[global],
         }
     }
+}
+
+/// Position, normal, shading normal and size, in the world.
+type RoundPoint = (DVec3, DVec3, DVec3, f64);
+
+/// The point of a disk. A call of its own: triangles are met far more often, and are slowed down by what they share a function
+/// with.
+#[inline(never)]
+fn disk_point(center: Vec3, normal: Vec3, radius: f32, uv: DVec2) -> RoundPoint {
+    let [normal, x, y] = disk::basis(normal);
+    let center_distance = uv.length();
+    let r = f64::from(radius);
+    let inset = rim_inset(center.as_dvec3().abs().max_element() + r, r) + disk::slack(center, radius);
+    let most = 1.0 - (inset / r).min(MOST_INSET);
+    let inside = if center_distance > most {
+        uv * (most / center_distance)
+    } else {
+        uv
+    };
+    let position = center.as_dvec3() + (x * inside.x + y * inside.y) * r;
+    (position, normal, normal, r)
+}
+
+/// The point of a cylinder, likewise.
+#[inline(never)]
+fn cylinder_point([from, to]: [Vec3; 2], radius: f32, uv: DVec2) -> RoundPoint {
+    let [_, x, y] = cylinder::basis(from, to);
+    let around = cylinder::direction(uv.x);
+    let normal = x * around.x + y * around.y;
+    let (r, axis) = (f64::from(radius), to.as_dvec3() - from.as_dvec3());
+    let size = axis.length() + r;
+    let coordinates = from.as_dvec3().abs().max(to.as_dvec3().abs()).max_element() + r;
+    let inset = rim_inset(coordinates, size) + cylinder::slack(from, to, radius);
+    let least = (inset / axis.length()).min(MOST_INSET);
+    let along = uv.y.clamp(least, 1.0 - least);
+    (from.as_dvec3() + axis * along + normal * r, normal, normal, size)
 }
 
 /// The most that a point is moved off an edge or a rim, as a share of the shape.

@@ -2,10 +2,10 @@
 //!
 //! | parameter | meaning | unit | default |
 //! |---|---|---|---|
-//! | `radiance` | radiance from every direction | W sr⁻¹ m⁻², [0, 1e12] per channel | required |
+//! | `radiance` | radiance from every direction | W sr⁻¹ m⁻², [0, 1e12] per channel | this, or `file` |
 //!
 //! Use it for an overcast sky, and for furnace tests: in it, what reflects everything cannot be seen. Directions are
-//! uniform over the sphere.
+//! uniform over the sphere. The parameters of `Environment(file)` hold for it too, though turning it changes nothing.
 
 use super::infinite::Infinite;
 use super::point::UNIFORM;

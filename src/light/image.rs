@@ -2,10 +2,10 @@
 //!
 //! | parameter | meaning | unit | default |
 //! |---|---|---|---|
-//! | `file` | an EXR or Radiance HDR picture in latitude and longitude, relative to the scene file | texels are radiance, W sr⁻¹ m⁻² per channel, finite, >= 0 | required |
+//! | `file` | an EXR or Radiance HDR picture in latitude and longitude, relative to the scene file | texels are radiance, W sr⁻¹ m⁻² per channel, finite, >= 0 | this, or `radiance` |
 //! | `scale` | factor of all texels | none, [0, 1e12] | 1 |
 //! | `up` | direction of the picture's top row | any length but zero | (0, 1, 0) |
-//! | `rotate` | angle by which the light is turned about `up`, counter-clockwise seen from its tip | degrees | 0 |
+//! | `rotate` | angle by which the light is turned about `up`, counter-clockwise seen from its tip | degrees, [-36000, 36000] | 0 |
 //!
 //! Use it for measured surroundings. With the defaults the left edge of the picture lies at −Z, a quarter from there at
 //! +X, the middle at +Z: seen from inside it is not mirrored. Texels are centres of equal steps in longitude and latitude;

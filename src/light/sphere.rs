@@ -17,7 +17,7 @@ fn cone(center: Vec3, radius: f32, from: Vec3) -> Option<f32> {
 }
 
 /// A point on the side of the sphere that `from` sees; `None` from inside, where nothing shines.
-#[inline]
+#[inline(never)]
 #[must_use]
 pub(super) fn sample(center: Vec3, radius: f32, from: Vec3, u: [f32; 2]) -> Option<EmitterPoint> {
     let one_minus_cos = cone(center, radius, from)?;

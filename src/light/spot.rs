@@ -5,7 +5,7 @@
 //! | `position` | where it is | scene units | required |
 //! | `target` | a point on the cone's axis, not `position` | scene units | required |
 //! | `intensity` | power per solid angle inside the beam | W sr⁻¹, [0, 1e12] per channel | required |
-//! | `cutoff` | half angle of the cone, beyond which nothing shines | degrees, (0, 90] | 20 |
+//! | `cutoff` | half angle of the cone, beyond which nothing shines | degrees, [1e-3, 90] | 20 |
 //! | `beam` | half angle inside which the intensity is full | degrees, [0, `cutoff`] | three quarters of `cutoff` |
 //!
 //! Use it for stage lamps and torches; like a `Point` it is met by no path. Between beam and cutoff the intensity falls

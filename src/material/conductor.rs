@@ -3,8 +3,8 @@
 //! | parameter | meaning | unit | default |
 //! |---|---|---|---|
 //! | `metal` | a metal by its symbol, such as `"Au"` ([`METALS`](super::metals::METALS)) | | this, or both of the next |
-//! | `eta` | real part of the index of refraction | none, >= 0 per channel | |
-//! | `k` | absorption coefficient | none, >= 0 per channel | |
+//! | `eta` | real part of the index of refraction | none, [0, 1000] per channel | |
+//! | `k` | absorption coefficient | none, [0, 1000] per channel | |
 //! | `reflectance` | scale of the reflection, a colour or a texture | none, [0, 1] per channel | 1 |
 //! | `two_sided` | whether the back reflects like the front | | true |
 //!

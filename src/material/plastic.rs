@@ -99,7 +99,7 @@ impl Model for Plastic {
     const KIND: MaterialKind = MaterialKind::Plastic;
 
     /// `None` on the black back of a one-sided surface, and where neither lobe reflects anything.
-    #[inline]
+    #[inline(never)]
     fn sample(&self, at: &Shading<'_>, wi: Vec3, draw: ScatterDraw, _: Transport) -> Option<Scattered> {
         if wi.z == 0.0 || (wi.z < 0.0 && !self.two_sided) {
             return None;
@@ -132,7 +132,7 @@ impl Model for Plastic {
         .if_representable()
     }
 
-    #[inline]
+    #[inline(never)]
     fn evaluate(&self, at: &Shading<'_>, wi: Vec3, wo: Vec3, _: Transport) -> Evaluated {
         let over = wi.z < 0.0;
         if wi.z == 0.0 || wo.z == 0.0 || over != (wo.z < 0.0) || (over && !self.two_sided) {

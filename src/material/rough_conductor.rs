@@ -3,7 +3,7 @@
 //! | parameter | meaning | unit | default |
 //! |---|---|---|---|
 //! | `metal` | a metal by its symbol, such as `"Au"` ([`METALS`](super::metals::METALS)) | | this, or `eta` and `k` |
-//! | `eta`, `k` | real part of the index of refraction, and absorption coefficient | none, >= 0 per channel | |
+//! | `eta`, `k` | real part of the index of refraction, and absorption coefficient | none, [0, 1000] per channel | |
 //! | `distribution` | of the facets' slopes: `Ggx` (long tails) or `Beckmann` | | `Ggx` |
 //! | `alpha` | roughness in all directions | none, [1e-4, 1] | this, or both of the next |
 //! | `alpha_u`, `alpha_v` | roughness along and across the direction in which the texture coordinate u grows | none, [1e-4, 1] | |
@@ -51,7 +51,7 @@ impl Model for RoughConductor {
     const KIND: MaterialKind = MaterialKind::RoughConductor;
 
     /// `None` where facets reflect into other facets, and on the black back of a one-sided surface.
-    #[inline]
+    #[inline(never)]
     fn sample(&self, at: &Shading<'_>, wi: Vec3, draw: ScatterDraw, _: Transport) -> Option<Scattered> {
         if wi.z == 0.0 || (wi.z < 0.0 && !self.two_sided) {
             return None;
@@ -74,7 +74,7 @@ impl Model for RoughConductor {
         .if_representable()
     }
 
-    #[inline]
+    #[inline(never)]
     fn evaluate(&self, at: &Shading<'_>, wi: Vec3, wo: Vec3, _: Transport) -> Evaluated {
         let over = wi.z < 0.0;
         if wi.z == 0.0 || wo.z == 0.0 || over != (wo.z < 0.0) || (over && !self.two_sided) {

@@ -95,7 +95,7 @@ impl Model for RoughDielectric {
     const KIND: MaterialKind = MaterialKind::RoughDielectric;
 
     /// `None` where facets send light into other facets, and exactly at grazing incidence.
-    #[inline]
+    #[inline(never)]
     fn sample(&self, _: &Shading<'_>, wi: Vec3, draw: ScatterDraw, transport: Transport) -> Option<Scattered> {
         if wi.z == 0.0 {
             return None;
@@ -145,7 +145,7 @@ impl Model for RoughDielectric {
         .if_representable()
     }
 
-    #[inline]
+    #[inline(never)]
     fn evaluate(&self, _: &Shading<'_>, wi: Vec3, wo: Vec3, transport: Transport) -> Evaluated {
         if wi.z == 0.0 || wo.z == 0.0 || self.relative_ior == 1.0 {
             return Evaluated::ZERO;

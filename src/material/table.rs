@@ -103,7 +103,7 @@ pub struct Needs {
 }
 
 /// Materials by number.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct MaterialTable {
     names: Vec<String>,
     index: Vec<(MaterialKind, u32)>,
@@ -111,10 +111,30 @@ pub struct MaterialTable {
     sides: Vec<[u32; 2]>,
     /// The models that some material has, in the order of [`MaterialKind::ALL`].
     kinds: Vec<MaterialKind>,
+    /// The place of every model in `kinds`, or [`NO_MODEL`]: looked up at every vertex.
+    numbers: [u8; KINDS],
     rows: Rows,
     needs: Needs,
     /// The scene's textures.
     pub textures: TextureTable,
+}
+
+/// No material has this model.
+const NO_MODEL: u8 = u8::MAX;
+
+impl Default for MaterialTable {
+    fn default() -> Self {
+        Self {
+            names: Vec::new(),
+            index: Vec::new(),
+            sides: Vec::new(),
+            kinds: Vec::new(),
+            numbers: [NO_MODEL; KINDS],
+            rows: Rows::default(),
+            needs: Needs::default(),
+            textures: TextureTable::default(),
+        }
+    }
 }
 
 impl MaterialTable {
@@ -172,7 +192,8 @@ impl MaterialTable {
     #[inline]
     #[must_use]
     pub fn model(&self, kind: MaterialKind) -> Option<usize> {
-        self.kinds.iter().position(|known| *known == kind)
+        let number = self.numbers[kind as usize];
+        (number != NO_MODEL).then_some(usize::from(number))
     }
 
     /// The material that is seen from the front, or from the back, of a surface with this one.

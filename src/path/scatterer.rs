@@ -85,7 +85,7 @@ impl Scatterer {
     }
 
     /// Value and densities for a path that goes on in the unit direction `outgoing`; `None` where nothing is scattered that way.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn evaluate(&self, scene: &Scene, outgoing: Vec3, transport: Transport) -> Option<Evaluated> {
         if !self.sides_agree(outgoing) {

@@ -60,15 +60,14 @@ impl Discrete {
         (index < self.cumulative.len()).then_some(index)
     }
 
-    /// [`sample`](Self::sample), and what is left of `u`: how far along the entry's share it lies, a uniform number in
+    /// What is left of `u` when it has chosen entry `index`: how far along the entry's share it lies, a uniform number in
     /// [0, 1) of its own.
     #[inline]
     #[must_use]
-    pub fn sample_with_rest(&self, u: f64) -> Option<(usize, f64)> {
-        let index = self.sample(u)?;
+    pub fn rest(&self, u: f64, index: usize) -> f64 {
         let start = if index > 0 { self.cumulative[index - 1] } else { 0.0 };
         let rest = (u - start) / (self.cumulative[index] - start);
-        Some((index, rest.clamp(0.0, 1.0_f64.next_down())))
+        rest.clamp(0.0, 1.0_f64.next_down())
     }
 
     /// The probability of entry `index`.
@@ -82,6 +81,10 @@ impl Discrete {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn with_rest(d: &Discrete, u: f64) -> Option<(usize, f64)> {
+        d.sample(u).map(|index| (index, d.rest(u, index)))
+    }
 
     #[test]
     fn entries_without_weight_are_never_chosen() {
@@ -97,12 +100,12 @@ mod tests {
     #[test]
     fn what_is_left_of_the_number_spans_the_unit_interval_in_every_entry() {
         let d = Discrete::new([1.0, 0.0, 3.0].into_iter());
-        assert_eq!(d.sample_with_rest(0.125), Some((0, 0.5)));
-        assert_eq!(d.sample_with_rest(0.25), Some((2, 0.0)));
-        assert_eq!(d.sample_with_rest(0.625), Some((2, 0.5)));
-        let last = d.sample_with_rest(1.0_f64.next_down());
+        assert_eq!(with_rest(&d, 0.125), Some((0, 0.5)));
+        assert_eq!(with_rest(&d, 0.25), Some((2, 0.0)));
+        assert_eq!(with_rest(&d, 0.625), Some((2, 0.5)));
+        let last = with_rest(&d, 1.0_f64.next_down());
         assert!(last.is_some_and(|(index, rest)| index == 2 && rest > 0.999_999 && rest < 1.0));
-        assert_eq!(Discrete::default().sample_with_rest(0.5), None);
+        assert_eq!(with_rest(&Discrete::default(), 0.5), None);
     }
 
     #[test]

@@ -168,7 +168,7 @@ pub(super) fn complain_json(error: &serde_json::Error, found: &str) -> Complaint
         Complaint::new(expected_found("a string", &quoted(found)), help)
     } else if text == "number out of range" {
         Complaint::new(
-            expected_found("f32", &quoted(found)),
+            expected_found("a finite number", &quoted(found)),
             "the largest number is about 3.4e38",
         )
     } else if text == "invalid number" {

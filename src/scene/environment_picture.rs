@@ -2,8 +2,8 @@
 
 use super::at::At;
 use super::error::SceneError;
+use super::limits::MAX_RADIANCE;
 use super::read::open_regular;
-use super::validate::MAX_RADIANCE;
 use crate::color::Rgb;
 use crate::light::Image;
 use glam::DVec3;

@@ -47,20 +47,12 @@
 //!
 //! # The blocks
 //!
-//! | block | variants and fields | documented at |
-//! |---|---|---|
-//! | `settings` | `max_depth` (16), `technique` (none) | [`SettingsDescription`] |
-//! | `camera` | `Perspective(origin, target, up (0, 1, 0), fov, fov_axis (Vertical))`, `ThinLens(`the same, `aperture_radius, focus_distance (`to `target))`, `Orthographic(origin, target, up (0, 1, 0), height)` | [`CameraDescription`] |
-//! | `film` | `width`, `height`, `filter` (`Box(radius: 0.5)`) | [`FilmDescription`] |
-//! | filters | `Box(radius 0.5)`, `Tent(radius 1)`, `Gaussian(radius 1.5, sigma 0.5)` | [`FilterDescription`] |
-//! | `textures` | `Checkerboard(even (0.4), odd (0.2), scale (1, 1))`, `Bitmap(file, encoding (Auto), filter (Bilinear), wrap (Repeat), scale (1, 1))`, by name | [`TextureDescription`] |
-//! | `materials` | `Diffuse`, `Conductor`, `RoughConductor`, `Dielectric`, `RoughDielectric`, `Plastic`, `TwoSided`, by name | [`MaterialDescription`] |
-//! | `lights` | a list of `Point`, `Spot`, `Directional`, `Environment`, `Sun`, `Sky` | [`LightDescription`] |
-//! | `shapes` | a list of `name` (none), `shape`, `material`, `emission` (none), `transform` (none) | [`ShapeDescription`] |
-//! | shapes | `Quad`, `Box`, `Sphere`, `Disk`, `Cylinder`, `Torus`, `HeightField`, `Obj` | [`ShapeKind`] |
-//! | transforms | `Translate((x, y, z))`, `Scale((x, y, z))`, `Rotate(axis, degrees)`, `Matrix((row, row, row, row))` | [`TransformStep`] |
+//! Every block, variant and field, with type, range, unit, default and meaning, is on the reference page,
+//! `scenes/REFERENCE.md`; `chainlight schema` prints the same as a JSON Schema, for editors ([`schema`]). In code they are
+//! [`SettingsDescription`], [`CameraDescription`], [`FilmDescription`] with [`FilterDescription`], [`TextureDescription`],
+//! [`MaterialDescription`], [`LightDescription`], [`ShapeDescription`] with [`ShapeKind`] and [`TransformStep`].
 //!
-//! In brackets: the default. What has none is required.
+//! A JSON scene may name the schema for its editor under the key `$schema`, beside its blocks; it is passed over.
 //!
 //! # Sides and transforms
 //!
@@ -115,9 +107,12 @@ pub mod error;
 pub mod flatten;
 mod lex;
 mod lights;
+mod limits;
 mod locate;
 pub mod mesh;
 pub mod read;
+pub mod schema;
+mod schema_key;
 mod shapes;
 mod syntax;
 #[cfg(test)]

@@ -4,6 +4,7 @@ use super::complaint::{Complaint, complain_json, complain_ron};
 use super::description::SceneDescription;
 use super::error::{SceneError, offset_of};
 use super::locate::context;
+use super::schema_key;
 use ron::extensions::Extensions;
 use std::sync::Arc;
 
@@ -18,7 +19,7 @@ pub(super) fn parse_ron(name: &str, text: &Arc<str>) -> Result<SceneDescription,
 
 /// Reads a description from JSON.
 pub(super) fn parse_json(name: &str, text: &Arc<str>) -> Result<SceneDescription, SceneError> {
-    serde_json::from_str(text).map_err(|error| {
+    schema_key::read(text).map_err(|error| {
         // The parser counts columns in bytes, and stands at the last byte of what it complains of.
         let line_start = offset_of(text, error.line(), 1);
         let at = text.floor_char_boundary(line_start + error.column().saturating_sub(1));

@@ -3,6 +3,8 @@
 use super::at::At;
 use super::description::TransformStep;
 use super::error::SceneError;
+use super::limits::MAX_ROTATION;
+use super::mesh::MAX_COORDINATE;
 use glam::{DAffine3, DMat3, DVec3};
 
 /// The smallest determinant of a transform relative to the product of its columns' lengths: below, the columns lie in
@@ -46,7 +48,7 @@ fn affine(at: &At, step: &TransformStep) -> Result<DAffine3, SceneError> {
             let at = at.variant("Rotate");
             let axis = at.key("axis").direction(*axis)?.normalize();
             at.key("degrees")
-                .within(*degrees, -1.0e6, 1.0e6, "in degrees; 360 is a whole turn")?;
+                .within(*degrees, -MAX_ROTATION, MAX_ROTATION, "in degrees; 360 is a whole turn")?;
             Ok(DAffine3::from_mat3(rotation(axis, f64::from(*degrees))))
         }
         TransformStep::Matrix(rows) => {
@@ -55,7 +57,12 @@ fn affine(at: &At, step: &TransformStep) -> Result<DAffine3, SceneError> {
                 let at = at.index(index);
                 for (column, value) in row.iter().enumerate() {
                     let at = at.index(column);
-                    at.within(*value, -1.0e9, 1.0e9, "choose a larger unit of length")?;
+                    at.within(
+                        *value,
+                        -MAX_COORDINATE,
+                        MAX_COORDINATE,
+                        "choose a larger unit of length",
+                    )?;
                 }
             }
             let [x, y, z, last] = rows.map(|row| row.map(f64::from));

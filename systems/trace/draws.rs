@@ -91,7 +91,7 @@ impl Draws<'_, '_> {
 
 impl DrawColumns<'_> {
     /// The numbers that connect the vertex at `depth` of subpath `path` to a light.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn light(&self, path: usize, depth: u32) -> LightDraw {
         if self.coordinates.scatter.is_empty() {
@@ -102,7 +102,7 @@ impl DrawColumns<'_> {
     }
 
     /// The numbers that scatter at the vertex at `depth` of subpath `path`, with one to choose a `lobe` if that is asked for.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn scatter(&self, path: usize, depth: u32, lobe: bool) -> ScatterDraw {
         if self.coordinates.scatter.is_empty() {
@@ -121,7 +121,7 @@ impl DrawColumns<'_> {
     }
 
     /// The number that plays roulette after the vertex at `depth` of subpath `path`.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn roulette(&self, path: usize, depth: u32) -> f32 {
         if self.coordinates.scatter.is_empty() {
@@ -132,7 +132,7 @@ impl DrawColumns<'_> {
     }
 
     /// The numbers that choose the point of the lens where the camera subpath of `chain` starts.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn lens(&self, chain: usize) -> [f32; 2] {
         if self.coordinates.scatter.is_empty() {
@@ -143,7 +143,7 @@ impl DrawColumns<'_> {
     }
 
     /// The numbers that choose where and how the light subpath `path` starts: a light and a point on it, and a direction.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn emission(&self, path: usize) -> (LightDraw, [f32; 2]) {
         if self.coordinates.scatter.is_empty() {
@@ -155,7 +155,7 @@ impl DrawColumns<'_> {
     }
 
     /// The number that chooses the pixel which light from the vertex at `depth` of the light subpath `path` counts for.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn splat(&self, path: usize, depth: u32) -> f32 {
         if self.coordinates.scatter.is_empty() {
@@ -168,12 +168,12 @@ impl DrawColumns<'_> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn coordinates_at(&self, path: usize, depth: u32) -> VertexCoordinates {
         self.coordinates.at(self.place.coordinate(path, depth))
     }
 
-    #[inline]
+    #[inline(always)]
     fn keyed(&self, path: usize) -> KeyedDraws {
         let chain = self.place.chain(path);
         KeyedDraws(self.place.key(chain, self.keys.at(chain)))

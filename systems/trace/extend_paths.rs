@@ -108,8 +108,9 @@ pub fn extend_paths(
         if !connections.is_empty() {
             connections.put(vertex, Rgb::BLACK);
         }
-        let sampled_before = connectable(kinds.at(previous)).then(|| (positions.at(previous), densities.at(previous)));
         if escaped {
+            let sampled_before =
+                connectable(kinds.at(previous)).then(|| (positions.at(previous), densities.at(previous)));
             // The vertex has the direction in which its light travels, and no position.
             kinds.put(vertex, VERTEX_INFINITE);
             positions.put(vertex, positions.at(previous));
@@ -143,11 +144,12 @@ pub fn extend_paths(
             let mut emission = Rgb::BLACK;
             if point.light != NOT_EMITTING {
                 emission = scene.lights.radiance(point.light, point.geometric_normal, -direction);
-                if let Some((from, density)) = sampled_before {
+                if connectable(kinds.at(previous)) {
+                    let from = positions.at(previous);
                     let sampled = scene
                         .lights
                         .density(point.light, from, point.position, point.geometric_normal);
-                    emission = emission * Heuristic::Power.share(density, sampled);
+                    emission = emission * Heuristic::Power.share(densities.at(previous), sampled);
                 }
             }
             emissions.put(vertex, emission);

@@ -73,7 +73,7 @@ impl Scatterers<'_, '_> {
 
 impl SurfaceColumns<'_> {
     /// The surface point of a vertex, where a path arrives in `direction`.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, vertex: usize, direction: Vec3) -> Scatterer {
         Scatterer {
             position: self.positions.at(vertex),

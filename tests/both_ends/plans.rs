@@ -164,15 +164,6 @@ fn a_plain_box_has_nothing_of_what_it_does_without() {
     }
 }
 
-/// A material, one without the effect, the effect, and its columns and systems; those of primary sample space apart.
-type Removal = (
-    &'static str,
-    &'static str,
-    Effect,
-    &'static [&'static str],
-    &'static [&'static str],
-);
-
 #[test]
 fn removing_an_effect_removes_its_columns_and_systems() {
     let textured = r#"Diffuse(reflectance: "checks")"#;
@@ -182,7 +173,9 @@ fn removing_an_effect_removes_its_columns_and_systems() {
     let mirror = r#"Conductor(metal: "Au")"#;
     let glass = "Dielectric(interior_ior: 1.5)";
     let frosted = "RoughDielectric(interior_ior: 1.5, alpha: 0.2)";
-    let cases: [Removal; 7] = [
+    // A material, one without the effect, and the effect's columns and systems; those of primary sample space apart.
+    type Names = &'static [&'static str];
+    let cases: [(&str, &str, Effect, Names, Names); 7] = [
         (textured, WHITE, Effect::Textures, &["VertexTexture"], &[]),
         (
             round,

@@ -358,3 +358,16 @@ fn an_interrupt_writes_what_there_is_and_says_so() {
                 .all(|&weight| weight == steps)
     );
 }
+
+#[test]
+fn schema_prints_and_writes_what_is_committed() {
+    let folder = TempDir::new().expect("a folder");
+    let committed = std::fs::read_to_string(scene("scene.schema.json")).expect("the schema");
+    assert_eq!(succeed(&["schema"], folder.path()), committed);
+    assert_eq!(succeed(&["schema", "-o", "own.json"], folder.path()), "");
+    let own = std::fs::read_to_string(folder.path().join("own.json")).expect("written");
+    assert_eq!(own, committed);
+    let reference = std::fs::read_to_string(scene("REFERENCE.md")).expect("the page");
+    assert_eq!(succeed(&["schema", "--reference"], folder.path()), reference);
+    assert!(fail(&["schema", "--output", "nowhere/own.json"]).contains("cannot write nowhere/own.json"));
+}

@@ -17,12 +17,14 @@ mod mirror;
 pub(super) use mirror::{above, outward};
 
 use glam::DVec3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// How the slopes of microfacets are distributed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "distribution")]
+#[schemars(rename = "Distribution")]
 pub enum Distribution {
     /// Trowbridge and Reitz (1975), also known as GGX (Walter et al. 2007): long tails, as real surfaces have them.
     #[default]

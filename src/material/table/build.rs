@@ -136,6 +136,9 @@ impl MaterialTable {
         self.index.push((kind, row));
         if let Err(place) = self.kinds.binary_search(&kind) {
             self.kinds.insert(place, kind);
+            for (number, kind) in self.kinds.iter().enumerate() {
+                self.numbers[*kind as usize] = number as u8;
+            }
         }
         (self.index.len() - 1) as u32
     }

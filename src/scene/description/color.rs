@@ -1,9 +1,12 @@
 //! Colours that may be textures.
 
 use crate::color::Rgb;
+use crate::scene::schema::quantity::{Name, Share};
 use crate::texture::Color;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 use std::fmt;
 
 /// A colour parameter of a material: three numbers, or the name of a texture.
@@ -43,6 +46,24 @@ impl Serialize for ColorDescription {
 impl<'de> Deserialize<'de> for ColorDescription {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(ColorOrName)
+    }
+}
+
+impl JsonSchema for ColorDescription {
+    fn schema_name() -> Cow<'static, str> {
+        "Color".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let mut constant = Share::json_schema(generator);
+        constant.insert("description".to_owned(), "The same everywhere.".into());
+        let mut texture = Name::json_schema(generator);
+        let text = "What the texture of this name has at the surface point.";
+        texture.insert("description".to_owned(), text.into());
+        json_schema!({
+            "description": "A colour parameter of a material: three numbers, or the name of a texture.",
+            "anyOf": [constant, texture],
+        })
     }
 }
 

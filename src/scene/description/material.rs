@@ -3,13 +3,16 @@
 use super::ColorDescription;
 use crate::color::Rgb;
 use crate::material::microfacet::Distribution;
+use crate::scene::schema::quantity;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A material: how a surface scatters light. Ratios are dimensionless, per channel.
 ///
 /// `two_sided`: true shades both sides alike; false makes the back (the side away from the geometric normal) black.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "kind_of_material")]
+#[schemars(rename = "Material")]
 pub enum MaterialDescription {
     /// Lambertian reflection.
     Diffuse {
@@ -21,14 +24,17 @@ pub enum MaterialDescription {
     },
     /// A smooth metal: mirror reflection by Fresnel's equations for a complex index eta + i k.
     Conductor {
-        /// A metal by its symbol, such as `"Au"`: see [`METALS`](crate::material::metals::METALS). This, or `eta` and `k`.
+        /// A metal by its symbol, such as `"Au"` ([`METALS`](crate::material::metals::METALS)). This, or `eta` and `k`.
         #[serde(default)]
+        #[schemars(with = "Option<quantity::Metal>")]
         metal: Option<String>,
-        /// Real part of the index of refraction, >= 0.
+        /// Real part of the index of refraction, in [0, 1000].
         #[serde(default)]
+        #[schemars(with = "Option<quantity::ComplexIndex>")]
         eta: Option<Rgb>,
-        /// Absorption coefficient, >= 0; not zero in a channel where `eta` is zero too.
+        /// Absorption coefficient, in [0, 1000]; not zero in a channel where `eta` is zero too.
         #[serde(default)]
+        #[schemars(with = "Option<quantity::ComplexIndex>")]
         k: Option<Rgb>,
         /// Scale of the reflection, in [0, 1]. Default 1, which is physical.
         #[serde(default = "white")]
@@ -39,26 +45,32 @@ pub enum MaterialDescription {
     },
     /// A rough metal: a blurred mirror.
     RoughConductor {
-        /// A metal by its symbol, such as `"Au"`: see [`METALS`](crate::material::metals::METALS). This, or `eta` and `k`.
+        /// A metal by its symbol, such as `"Au"` ([`METALS`](crate::material::metals::METALS)). This, or `eta` and `k`.
         #[serde(default)]
+        #[schemars(with = "Option<quantity::Metal>")]
         metal: Option<String>,
-        /// Real part of the index of refraction, >= 0.
+        /// Real part of the index of refraction, in [0, 1000].
         #[serde(default)]
+        #[schemars(with = "Option<quantity::ComplexIndex>")]
         eta: Option<Rgb>,
-        /// Absorption coefficient, >= 0; not zero in a channel where `eta` is zero too.
+        /// Absorption coefficient, in [0, 1000]; not zero in a channel where `eta` is zero too.
         #[serde(default)]
+        #[schemars(with = "Option<quantity::ComplexIndex>")]
         k: Option<Rgb>,
         /// How the slopes of its facets are distributed. Default `Ggx`.
         #[serde(default)]
         distribution: Distribution,
         /// Roughness in all directions, in [1e-4, 1]. This, or both of the next.
         #[serde(default)]
+        #[schemars(with = "Option<quantity::Roughness>")]
         alpha: Option<f32>,
         /// Roughness along the direction in which the texture coordinate u grows.
         #[serde(default)]
+        #[schemars(with = "Option<quantity::Roughness>")]
         alpha_u: Option<f32>,
         /// Roughness across it.
         #[serde(default)]
+        #[schemars(with = "Option<quantity::Roughness>")]
         alpha_v: Option<f32>,
         /// Scale of the reflection, in [0, 1]. Default 1, which is physical.
         #[serde(default = "white")]
@@ -70,50 +82,63 @@ pub enum MaterialDescription {
     /// A smooth interface between two clear media: mirror reflection and refraction.
     Dielectric {
         /// Index of refraction of the side that the geometric normal points away from, in [0.1, 10]. Glass: 1.5.
+        #[schemars(with = "quantity::RefractiveIndex")]
         interior_ior: f32,
         /// Index of refraction of the side that the geometric normal points into, in [0.1, 10]. Default 1: vacuum.
         #[serde(default = "vacuum")]
+        #[schemars(with = "quantity::RefractiveIndex")]
         exterior_ior: f32,
         /// Scale of the reflection, in [0, 1]. Default 1, which is physical.
         #[serde(default = "ones")]
+        #[schemars(with = "quantity::Share")]
         reflectance: Rgb,
         /// Scale of the refraction, in [0, 1]. Default 1, which is physical.
         #[serde(default = "ones")]
+        #[schemars(with = "quantity::Share")]
         transmittance: Rgb,
     },
     /// A rough interface between two clear media: blurred reflection and refraction.
     RoughDielectric {
         /// Index of refraction of the side that the geometric normal points away from, in [0.1, 10]. Glass: 1.5.
+        #[schemars(with = "quantity::RefractiveIndex")]
         interior_ior: f32,
         /// Index of refraction of the side that the geometric normal points into, in [0.1, 10]. Default 1: vacuum.
         #[serde(default = "vacuum")]
+        #[schemars(with = "quantity::RefractiveIndex")]
         exterior_ior: f32,
         /// How the slopes of its facets are distributed. Default `Ggx`.
         #[serde(default)]
         distribution: Distribution,
         /// Roughness in all directions, in [1e-4, 1]. This, or both of the next.
         #[serde(default)]
+        #[schemars(with = "Option<quantity::Roughness>")]
         alpha: Option<f32>,
         /// Roughness along the direction in which the texture coordinate u grows.
         #[serde(default)]
+        #[schemars(with = "Option<quantity::Roughness>")]
         alpha_u: Option<f32>,
         /// Roughness across it.
         #[serde(default)]
+        #[schemars(with = "Option<quantity::Roughness>")]
         alpha_v: Option<f32>,
         /// Scale of the reflection, in [0, 1]. Default 1, which is physical.
         #[serde(default = "ones")]
+        #[schemars(with = "quantity::Share")]
         reflectance: Rgb,
         /// Scale of the refraction, in [0, 1]. Default 1, which is physical.
         #[serde(default = "ones")]
+        #[schemars(with = "quantity::Share")]
         transmittance: Rgb,
     },
     /// A smooth clear coat over a matt base.
     Plastic {
         /// Index of refraction of the coat, in [0.1, 10]. Default 1.49: acrylic glass.
         #[serde(default = "acrylic")]
+        #[schemars(with = "quantity::RefractiveIndex")]
         interior_ior: f32,
         /// Index of refraction of what is before it, in [0.1, 10]. Default 1: vacuum.
         #[serde(default = "vacuum")]
+        #[schemars(with = "quantity::RefractiveIndex")]
         exterior_ior: f32,
         /// Share of the light that the base reflects, in [0, 1]. Default 0.5.
         #[serde(default = "grey")]
@@ -131,8 +156,10 @@ pub enum MaterialDescription {
     /// A sheet whose sides differ. Light does not pass it.
     TwoSided {
         /// Name of the material on the side of the geometric normal: an opaque one.
+        #[schemars(with = "quantity::Name")]
         front: String,
         /// Name of the material on the other side. It is seen there as it would be from its own front.
+        #[schemars(with = "quantity::Name")]
         back: String,
     },
 }

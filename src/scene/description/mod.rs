@@ -22,6 +22,8 @@ pub use settings::{DEFAULT_MAX_DEPTH, MAX_DEPTH_LIMIT, SettingsDescription};
 pub use shape::{ShapeDescription, ShapeKind, TransformStep};
 pub use texture::{TextureDescription, TextureEncoding, TextureFilter, TextureWrap};
 
+use crate::scene::schema::quantity;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -29,12 +31,14 @@ use std::collections::BTreeMap;
 pub const FORMAT_VERSION: u32 = 1;
 
 /// A whole scene file.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "scene")]
+#[schemars(rename = "Scene")]
 pub struct SceneDescription {
     /// Version of the format; must be [`FORMAT_VERSION`]. Required, so that a later format can tell old files.
+    #[schemars(with = "quantity::Version")]
     pub version: u32,
-    /// How to render, where the command line does not say otherwise. Default: see [`SettingsDescription`].
+    /// How to render, where the command line does not say otherwise. Default: each setting's own.
     #[serde(default)]
     pub settings: SettingsDescription,
     /// The camera. Required.
@@ -43,13 +47,16 @@ pub struct SceneDescription {
     pub film: FilmDescription,
     /// Textures by name. Default: none. Two of the same name are an error.
     #[serde(default, deserialize_with = "unique_map::textures")]
+    #[schemars(extend("propertyNames" = quantity::not_empty()))]
     pub textures: BTreeMap<String, TextureDescription>,
     /// Materials by name. Default: none. Two of the same name are an error.
     #[serde(default, deserialize_with = "unique_map::materials")]
+    #[schemars(extend("propertyNames" = quantity::not_empty()))]
     pub materials: BTreeMap<String, MaterialDescription>,
     /// Lights that are no shapes. Default: none.
     #[serde(default)]
     pub lights: Vec<LightDescription>,
-    /// Shapes, in the order in which they become instances. Required.
+    /// Shapes, in the order in which they become instances; at least one. Required.
+    #[schemars(length(min = 1))]
     pub shapes: Vec<ShapeDescription>,
 }

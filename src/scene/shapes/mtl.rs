@@ -10,8 +10,8 @@
 
 use crate::color::Rgb;
 use crate::scene::description::MaterialDescription;
+use crate::scene::limits::MAX_RADIANCE;
 use crate::scene::read::read_bounded;
-use crate::scene::validate::MAX_RADIANCE;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

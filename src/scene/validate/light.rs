@@ -1,18 +1,14 @@
 //! Checks of the `lights` block. Pictures are checked where they are read.
 
-use super::shape::MAX_RADIANCE;
 use crate::light::TURBIDITY;
 use crate::scene::at::At;
 use crate::scene::description::LightDescription;
 use crate::scene::error::SceneError;
+use crate::scene::limits::{MAX_CUTOFF, MAX_RADIANCE, MAX_TURN, MIN_CUTOFF};
 
 /// The smallest distance from a spot to its target, relative to their coordinates: nearer, the direction would be
 /// rounding noise of `f32`.
 const MIN_AIM_DISTANCE: f64 = 1.0e-6;
-/// The smallest cutoff of a spot in degrees: narrower, a direction in `f32` does not tell its centre from its rim.
-const MIN_CUTOFF: f32 = 1.0e-3;
-/// The largest turn of a picture in degrees, either way.
-const MAX_TURN: f32 = 36_000.0;
 
 pub(super) fn check(at: &At, light: &LightDescription) -> Result<(), SceneError> {
     let at = at.variant(light.name());
@@ -38,7 +34,7 @@ pub(super) fn check(at: &At, light: &LightDescription) -> Result<(), SceneError>
             }
             power(&at.key("intensity"), intensity.to_array(), INTENSITY)?;
             let help = "the angle between the axis and the edge of the light, in degrees; 20 is the default";
-            at.key("cutoff").within(*cutoff, MIN_CUTOFF, 90.0, help)?;
+            at.key("cutoff").within(*cutoff, MIN_CUTOFF, MAX_CUTOFF, help)?;
             match beam {
                 Some(beam) => {
                     let help = "the full intensity ends there: not beyond `cutoff`";

@@ -5,13 +5,12 @@ use crate::material::metals::{self, METALS};
 use crate::scene::at::At;
 use crate::scene::description::{ColorDescription, MaterialDescription};
 use crate::scene::error::{SceneError, nearest_name};
+use crate::scene::limits::{IOR, MAX_CONDUCTOR_INDEX};
 use crate::tolerance::LEAST_ROUGHNESS;
 use std::collections::BTreeMap;
 
-/// The largest index of refraction or absorption coefficient of a conductor.
-const MAX_CONDUCTOR_INDEX: f32 = 1000.0;
 const METAL: &str = "a metal by name: `metal: \"Au\"`; or in numbers: eta (0.08, 0.41, 1.56), k (3.39, 2.50, 1.77)";
-const IOR: &str = "an index of refraction: vacuum 1, water 1.33, glass 1.5, diamond 2.4";
+const IOR_HELP: &str = "an index of refraction: vacuum 1, water 1.33, glass 1.5, diamond 2.4";
 
 /// What a material may name.
 pub(super) struct Known<'a> {
@@ -217,8 +216,8 @@ fn roughness(at: &At, [alpha, u, v]: [Option<f32>; 3], smooth: &str) -> Result<(
 }
 
 fn indices(at: &At, [interior, exterior]: [f32; 2]) -> Result<(), SceneError> {
-    at.key("interior_ior").within(interior, 0.1, 10.0, IOR)?;
-    at.key("exterior_ior").within(exterior, 0.1, 10.0, IOR)
+    at.key("interior_ior").within(interior, IOR[0], IOR[1], IOR_HELP)?;
+    at.key("exterior_ior").within(exterior, IOR[0], IOR[1], IOR_HELP)
 }
 
 /// A share of light: more than 1 would make light out of nothing, and paths would never end.

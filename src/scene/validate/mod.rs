@@ -7,8 +7,6 @@ mod shape;
 mod texture;
 mod view;
 
-pub(super) use shape::MAX_RADIANCE;
-
 use super::at::At;
 use super::description::{MAX_DEPTH_LIMIT, MaterialDescription, SceneDescription, ShapeKind};
 use super::error::{SceneError, SceneWarning};

@@ -4,16 +4,13 @@ use super::needs_material;
 use crate::scene::at::{At, wide};
 use crate::scene::description::{MaterialDescription, ShapeDescription, ShapeKind};
 use crate::scene::error::{SceneError, nearest_name};
+use crate::scene::limits::{MAX_RADIANCE, MIN_HEIGHTS, SEGMENTS};
 use crate::scene::mesh::MAX_COORDINATE;
 use crate::scene::shapes::height_field::MAX_HEIGHTS;
 use std::collections::BTreeMap;
 
-/// The largest radiance: with it, the power of an emitter of any allowed size stays finite in `f32`.
-pub(in crate::scene) const MAX_RADIANCE: f32 = 1.0e12;
 /// How near to parallel the edges of a quad may be, as the sine of the angle between them.
 const MIN_EDGE_SINE: f64 = 1.0e-6;
-/// The most segments of a torus in one direction.
-const MAX_SEGMENTS: u32 = 16_384;
 
 pub(super) fn check(
     at: &At,
@@ -106,8 +103,9 @@ fn kind(at: &At, kind: &ShapeKind) -> Result<(), SceneError> {
                 return Err(at.key("minor_radius").error(message, help));
             }
             for (index, count) in segments.iter().enumerate() {
-                if !(3..=MAX_SEGMENTS).contains(count) {
-                    let message = format!("expected from 3 to {MAX_SEGMENTS} segments, found {count}");
+                let [least, most] = SEGMENTS;
+                if !(least..=most).contains(count) {
+                    let message = format!("expected from {least} to {most} segments, found {count}");
                     let at = at.key("segments").index(index);
                     return Err(at.error(message, "around the axis and around the tube; (64, 32) is usual"));
                 }
@@ -200,7 +198,7 @@ fn heights(at: &At, rows: &[Vec<f32>]) -> Result<(), SceneError> {
             .error(message, "all rows of a height field are equally long"));
     }
     let count = rows.len() * columns;
-    if rows.len() < 2 || columns < 2 || count > MAX_HEIGHTS {
+    if rows.len() < MIN_HEIGHTS || columns < MIN_HEIGHTS || count > MAX_HEIGHTS {
         let message = format!(
             "expected 2 rows of 2 heights or more, and at most {MAX_HEIGHTS} heights in all; found {} rows of {columns}",
             rows.len()

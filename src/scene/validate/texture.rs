@@ -3,9 +3,7 @@
 use crate::scene::at::At;
 use crate::scene::description::TextureDescription;
 use crate::scene::error::SceneError;
-
-/// The largest number of cells or pictures per unit of texture coordinates.
-const MAX_SCALE: f32 = 1.0e6;
+use crate::scene::limits::MAX_TEXTURE_SCALE;
 
 pub(super) fn check(at: &At, texture: &TextureDescription) -> Result<(), SceneError> {
     match texture {
@@ -36,5 +34,8 @@ pub(super) fn check(at: &At, texture: &TextureDescription) -> Result<(), SceneEr
 fn scales(at: &At, scale: [f32; 2]) -> Result<(), SceneError> {
     let help = "how often it repeats per unit of texture coordinates";
     let mut each = scale.iter().enumerate();
-    each.try_for_each(|(axis, value)| at.index(axis).within(*value, -MAX_SCALE, MAX_SCALE, help))
+    each.try_for_each(|(axis, value)| {
+        at.index(axis)
+            .within(*value, -MAX_TEXTURE_SCALE, MAX_TEXTURE_SCALE, help)
+    })
 }

@@ -5,6 +5,7 @@ use crate::scene::description::{
     CameraDescription, FilmDescription, FilterDescription, MAX_FILM_PIXELS, MAX_FILM_SIDE,
 };
 use crate::scene::error::SceneError;
+use crate::scene::limits::{FILTER_RADIUS, FILTER_SIGMA, FOV_MARGIN, MIN_LENS_LENGTH};
 use crate::scene::mesh::MAX_COORDINATE;
 
 /// How near to parallel `up` may come to the view, as the sine of the angle between them: nearer, the picture's
@@ -13,11 +14,6 @@ const MIN_UP_SINE: f64 = 1.0e-4;
 /// The smallest distance from origin to target, relative to their coordinates: nearer, the direction of view would be
 /// rounding noise of `f32`.
 const MIN_VIEW_DISTANCE: f64 = 1.0e-6;
-/// How near to 0 and to 180 degrees an angle of view may come.
-const FOV_MARGIN: f32 = 1.0e-4;
-/// The smallest radius of a lens, distance of its focus, or height of a film's image: the area of a film of 65536 x 1
-/// pixels and one over it stay in the range of `f32`.
-const MIN_LENGTH: f32 = 1.0e-9;
 
 pub(super) fn camera(at: &At, camera: &CameraDescription) -> Result<(), SceneError> {
     match camera {
@@ -104,7 +100,7 @@ fn angle_of_view(at: &At, fov: f32) -> Result<(), SceneError> {
 
 /// A length above zero, of a camera.
 fn positive_length(at: &At, length: f32, help: &str) -> Result<(), SceneError> {
-    at.within(length, MIN_LENGTH, MAX_COORDINATE, help)
+    at.within(length, MIN_LENS_LENGTH, MAX_COORDINATE, help)
 }
 
 pub(super) fn film(at: &At, film: &FilmDescription) -> Result<(), SceneError> {
@@ -125,15 +121,16 @@ pub(super) fn film(at: &At, film: &FilmDescription) -> Result<(), SceneError> {
         FilterDescription::Tent { radius } => (at.variant("Tent"), radius),
         FilterDescription::Gaussian { radius, sigma } => {
             let at = at.variant("Gaussian");
+            let [least, most] = FILTER_SIGMA;
             at.key("sigma")
-                .within(sigma, 0.05, 16.0, "a standard deviation in pixels; 0.5 is usual")?;
+                .within(sigma, least, most, "a standard deviation in pixels; 0.5 is usual")?;
             (at, radius)
         }
     };
     at.key("radius").within(
         radius,
-        0.5,
-        16.0,
+        FILTER_RADIUS[0],
+        FILTER_RADIUS[1],
         "in pixels; less than half a pixel would lose light between pixels",
     )
 }
