@@ -1,9 +1,12 @@
 //! Whether all techniques make the same picture of every shipped scene.
 //!
-//! `cargo run --release --example agreement -- [--runs N] [--samples N] [--size N] [--brighter F] [--scene NAME]...` renders the scenes small,
-//! many times over, and prints a row for every pair of techniques: block means that differ significantly (of a scene's whole
-//! family one in a hundred does where nothing is wrong), and the smallest bias of the picture's mean that would be found with a
-//! probability of 0.95. Exits with 1 where any differ.
+//! `cargo run --release --example agreement -- [--runs N] [--samples N] [--size N] [--brighter F] [--scene NAME]...` renders
+//! the scenes small, many times over, and prints a row for every pair of techniques: block means that differ significantly (of a
+//! scene's whole family any does once in a hundred times where nothing is wrong), and the smallest bias of the picture's mean
+//! that would be found with a probability of 0.95. Exits with 1 where any differ.
+//!
+//! Light so rare that a run meets it a few times at most makes means that are not normal: where path tracing alone differs,
+//! more `--samples` tell whether it has seen all there is.
 #![expect(clippy::print_stdout, reason = "an example prints what it found")]
 
 #[path = "agreement/mod.rs"]
