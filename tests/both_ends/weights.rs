@@ -313,8 +313,9 @@ fn weights_are_those_of_the_densities_of_all_strategies() {
                     found.values().map(|found| found.excess).fold(0.0, f64::max)
                 ));
                 assert_eq!(found.len(), strategies(light_name), "{case}");
+                // The tolerance is an estimate of what rounding does, within a factor of two; mistakes show by over a hundred.
                 for (strategy, found) in &found {
-                    assert!(found.excess < 1.0, "{case}, {strategy:?}: {found:?}");
+                    assert!(found.excess < 2.0, "{case}, {strategy:?}: {found:?}");
                 }
             }
         }
