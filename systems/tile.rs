@@ -86,6 +86,13 @@ impl TilePlace {
         path >= self.lights_from as usize
     }
 
+    /// Whether no subpath starts at a light.
+    #[inline]
+    #[must_use]
+    pub const fn is_camera_only(&self) -> bool {
+        self.lights_from >= self.capacity
+    }
+
     /// The subpaths of a chain: from the camera, from a light, or both.
     pub fn subpaths(&self, chain: usize) -> impl Iterator<Item = usize> + use<> {
         let from_light = chain

@@ -94,7 +94,7 @@ impl Camera {
 
     /// The ray through film position `film` (pixels) and the lens point that the two uniform numbers `lens` choose. They
     /// are ignored unless the camera [has an aperture](Self::has_aperture).
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn ray(&self, film: Vec2, lens: [f32; 2]) -> CameraRay {
         match self {

@@ -113,6 +113,7 @@ impl Geometry {
 
     /// The unit shading normal of a triangle of a mesh whose normals begin at `first_normal`, at a point with weights `uv` of
     /// its second and third corner; `normal`, the triangle's own, where it has none.
+    #[inline(always)]
     pub(super) fn shading_normal(
         &self,
         first_normal: Option<u32>,
@@ -132,7 +133,7 @@ impl Geometry {
     #[must_use]
     pub fn surface_point(&self, hit: Hit) -> SurfacePoint {
         let instance = &self.instances[hit.instance as usize];
-        let (position, normal, shading, size) = match instance.shape {
+        let found = match instance.shape {
             InstanceShape::Mesh {
                 first_triangle,
                 first_vertex,
@@ -148,17 +149,20 @@ impl Geometry {
                 let shading = self.shading_normal(first_normal, corners, hit.uv, normal);
                 let size = ab.length() + ac.length();
                 let position = inset([a, b, c], u, v, size, cross.length());
-                (position, normal, shading, size)
+                // Left from here: triangles are met far more often than the others, and are slowed down by what they share.
+                return self.point(instance, hit.primitive, (position, normal, shading, size));
             }
-            InstanceShape::Sphere { center, radius } => {
-                let normal = octahedral::decode(hit.uv);
-                let radius = f64::from(radius);
-                (center.as_dvec3() + normal * radius, normal, normal, radius)
-            }
+            InstanceShape::Sphere { center, radius } => sphere_point(center, radius, hit.uv),
             InstanceShape::Disk { center, normal, radius } => disk_point(center, normal, radius, hit.uv),
             InstanceShape::Cylinder { from, to, radius } => cylinder_point([from, to], radius, hit.uv),
         };
-        let global = (instance.first_primitive + hit.primitive) as usize;
+        self.point(instance, hit.primitive, found)
+    }
+
+    /// The surface point of a primitive of an instance.
+    #[inline(always)]
+    fn point(&self, instance: &Instance, primitive: u32, (position, normal, shading, size): Found) -> SurfacePoint {
+        let global = (instance.first_primitive + primitive) as usize;
         let position = position.as_vec3();
         let geometric_normal = normal.as_vec3();
         SurfacePoint {
@@ -173,12 +177,19 @@ impl Geometry {
 }
 
 /// Position, normal, shading normal and size, in the world.
-type RoundPoint = (DVec3, DVec3, DVec3, f64);
+type Found = (DVec3, DVec3, DVec3, f64);
 
-/// The point of a disk. A call of its own: triangles are met far more often, and are slowed down by what they share a function
-/// with.
+/// The point of a sphere.
 #[inline(never)]
-fn disk_point(center: Vec3, normal: Vec3, radius: f32, uv: DVec2) -> RoundPoint {
+fn sphere_point(center: Vec3, radius: f32, uv: DVec2) -> Found {
+    let normal = octahedral::decode(uv);
+    let radius = f64::from(radius);
+    (center.as_dvec3() + normal * radius, normal, normal, radius)
+}
+
+/// The point of a disk.
+#[inline(never)]
+fn disk_point(center: Vec3, normal: Vec3, radius: f32, uv: DVec2) -> Found {
     let [normal, x, y] = disk::basis(normal);
     let center_distance = uv.length();
     let r = f64::from(radius);
@@ -193,9 +204,9 @@ fn disk_point(center: Vec3, normal: Vec3, radius: f32, uv: DVec2) -> RoundPoint 
     (position, normal, normal, r)
 }
 
-/// The point of a cylinder, likewise.
+/// The point of a cylinder.
 #[inline(never)]
-fn cylinder_point([from, to]: [Vec3; 2], radius: f32, uv: DVec2) -> RoundPoint {
+fn cylinder_point([from, to]: [Vec3; 2], radius: f32, uv: DVec2) -> Found {
     let [_, x, y] = cylinder::basis(from, to);
     let around = cylinder::direction(uv.x);
     let normal = x * around.x + y * around.y;

@@ -70,17 +70,22 @@ impl Emitter {
         }
     }
 
-    /// A point as seen from `from`; `None` where nothing shines from there to `from`.
-    #[inline]
+    /// A point as seen from `from`; `None` where nothing shines from there to `from`. Triangles are part of the caller, the
+    /// others calls: they are met far less often.
+    #[inline(always)]
     pub(super) fn sample(&self, flat_normal: Vec3, from: Vec3, u: [f32; 2]) -> Option<EmitterPoint> {
         match self.shape {
             EmitterShape::Triangle(corners) => triangle::sample(corners, flat_normal, self.area, from, u),
             EmitterShape::Sphere { center, radius } => sphere::sample(center, radius, from, u),
-            EmitterShape::Disk { .. } | EmitterShape::Cylinder { .. } => {
-                let (position, normal) = self.point(flat_normal, u);
-                EmitterPoint::uniform_in_area(self.area, from, position, normal)
-            }
+            EmitterShape::Disk { .. } | EmitterShape::Cylinder { .. } => self.sample_round(flat_normal, from, u),
         }
+    }
+
+    /// [`sample`](Self::sample) of shapes whose points are drawn uniformly, triangles apart.
+    #[inline(never)]
+    fn sample_round(&self, flat_normal: Vec3, from: Vec3, u: [f32; 2]) -> Option<EmitterPoint> {
+        let (position, normal) = self.point(flat_normal, u);
+        EmitterPoint::uniform_in_area(self.area, from, position, normal)
     }
 
     /// The density, per solid angle at `from`, with which [`sample`](Self::sample) finds a point.

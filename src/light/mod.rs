@@ -63,7 +63,7 @@ struct EmitterPoint {
 
 impl EmitterPoint {
     /// A point that was drawn uniformly over an area; `None` if the reference point `from` sees its back or its edge.
-    #[inline]
+    #[inline(always)]
     fn uniform_in_area(area: f32, from: Vec3, position: Vec3, normal: Vec3) -> Option<Self> {
         let density = area_density(area, from, position, normal);
         (density > 0.0 && density.is_finite()).then_some(Self {

@@ -113,8 +113,9 @@ impl LightTable {
     }
 
     /// Chooses a light with `choice` and a point on it with `u`, as seen from `from`. `None` if no light reaches
-    /// `from` from there: its back, its edge, or the reference point inside it.
-    #[inline]
+    /// `from` from there: its back, its edge, or the reference point inside it. Part of its callers, so that what they
+    /// do not ask of the sample is not computed.
+    #[inline(always)]
     #[must_use]
     pub fn sample(&self, from: Vec3, choice: f64, u: [f32; 2]) -> Option<LightSample> {
         let number = self.choice.sample(choice)?;

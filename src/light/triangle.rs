@@ -22,7 +22,7 @@ pub(super) fn point(corners: [Vec3; 3], u: [f32; 2]) -> Vec3 {
 }
 
 /// A point on the triangle with this unit normal, uniform in area; `None` if the reference point `from` sees its back or its edge.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub(super) fn sample(corners: [Vec3; 3], normal: Vec3, area: f32, from: Vec3, u: [f32; 2]) -> Option<EmitterPoint> {
     EmitterPoint::uniform_in_area(area, from, point(corners, u), normal)

@@ -28,7 +28,7 @@ impl Model for Diffuse {
     const KIND: MaterialKind = MaterialKind::Diffuse;
 
     /// `None` on the black back of a one-sided surface.
-    #[inline]
+    #[inline(always)]
     fn sample(&self, at: &Shading<'_>, wi: Vec3, draw: ScatterDraw, _: Transport) -> Option<Scattered> {
         if wi.z == 0.0 || (wi.z < 0.0 && !self.two_sided) {
             return None;
@@ -49,7 +49,7 @@ impl Model for Diffuse {
         })
     }
 
-    #[inline]
+    #[inline(always)]
     fn evaluate(&self, at: &Shading<'_>, wi: Vec3, wo: Vec3, _: Transport) -> Evaluated {
         if wi.z * wo.z <= 0.0 || (wi.z < 0.0 && !self.two_sided) {
             return Evaluated::ZERO;

@@ -25,8 +25,9 @@ impl Frame {
         }
     }
 
-    /// The frame about a unit normal whose x axis is `tangent`, unit and orthogonal to it up to rounding.
-    #[inline]
+    /// The frame about a unit normal whose x axis is `tangent`, unit and orthogonal to it up to rounding. A call: few surfaces have
+    /// one, and those that have none need not carry it.
+    #[inline(never)]
     #[must_use]
     pub fn with_tangent(normal: Vec3, tangent: Vec3) -> Self {
         let y = normal.cross(tangent).normalize();

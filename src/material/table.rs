@@ -68,8 +68,9 @@ macro_rules! define {
                 }
             }
 
-            /// Value and densities of a material for a pair of directions. See [`Model::evaluate`].
-            #[inline]
+            /// Value and densities of a material for a pair of directions. See [`Model::evaluate`]. Part of its callers, so
+            /// that what they do not ask for is not computed; the costly models are calls.
+            #[inline(always)]
             #[must_use]
             pub fn evaluate(&self, material: u32, uv: Vec2, wi: Vec3, wo: Vec3, transport: Transport) -> Evaluated {
                 let (kind, row) = self.index[material as usize];
@@ -194,6 +195,13 @@ impl MaterialTable {
     pub fn model(&self, kind: MaterialKind) -> Option<usize> {
         let number = self.numbers[kind as usize];
         (number != NO_MODEL).then_some(usize::from(number))
+    }
+
+    /// Whether some surface has another material on its back than on its front.
+    #[inline]
+    #[must_use]
+    pub fn have_sides(&self) -> bool {
+        !self.sides.is_empty()
     }
 
     /// The material that is seen from the front, or from the back, of a surface with this one.

@@ -76,7 +76,7 @@ impl CoordinateColumns<'_> {
     }
 
     /// The coordinates number `index`.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn at(&self, index: usize) -> VertexCoordinates {
         let lights = !self.choice.is_empty();
@@ -122,7 +122,7 @@ impl CoordinateColumnsMut<'_> {
     }
 
     /// Sets the coordinates number `index`.
-    #[inline]
+    #[inline(always)]
     pub fn put(&mut self, index: usize, coordinates: VertexCoordinates) {
         if !self.choice.is_empty() {
             self.choice.put(index, coordinates.choice);

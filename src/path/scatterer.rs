@@ -52,7 +52,7 @@ impl Scatterer {
     }
 
     /// The local frame of materials.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn frame(&self) -> Frame {
         if self.tangent == Vec3::ZERO {
@@ -64,7 +64,7 @@ impl Scatterer {
 
     /// Scatters the path: `sample` draws in the local frame, given the local direction back along the path. The world
     /// direction in which the path goes on, and what was drawn; `None` if the path ends here.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn scatter(
         &self,
@@ -124,7 +124,7 @@ impl Scatterer {
     }
 
     /// Samples a light for this point. `None` if no light can reach it that way.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn connect(&self, scene: &Scene, draw: LightDraw) -> Option<Connection> {
         let light = scene.lights.sample(self.position, draw.choice, draw.point)?;

@@ -51,7 +51,7 @@ pub enum Texture {
 
 impl Color {
     /// The colour at a surface point.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn at(self, shading: &Shading<'_>) -> Rgb {
         match self {

@@ -28,7 +28,7 @@ pub fn take_coordinates(
         for path in place.subpaths(chain) {
             let depth = proposed_depths.at(path);
             depths.put(path, depth);
-            for vertex in (place.first_coordinate..=depth).map(|d| place.coordinate(path, d)) {
+            for vertex in (place.first_coordinate..depth + 1).map(|d| place.coordinate(path, d)) {
                 current.put(vertex, proposed.at(vertex));
             }
         }

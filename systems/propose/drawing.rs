@@ -77,7 +77,7 @@ impl Drawn {
 impl Drawing<'_, '_> {
     /// Lets `draw` draw for every vertex that waits and whose chain tries mutation `number`: it is given the coordinates that
     /// the current state has for that vertex, if it has any.
-    #[inline]
+    #[inline(always)]
     pub fn draw(&mut self, number: usize, draw: impl Fn(Option<VertexCoordinates>, &Waiting) -> Drawn) {
         let place = &*self.place;
         let (list, chosen, lengths) = (self.list.rows(), self.chosen.rows(), self.lengths.rows());

@@ -104,7 +104,7 @@ impl StartColumns<'_> {
     }
 
     /// Starts a subpath; it waits for its first ray if it `goes_on`.
-    #[inline]
+    #[inline(always)]
     pub fn begin(&mut self, queues: &mut Queues, path: usize, first: &FirstVertex, goes_on: bool) {
         self.directions.put(path, first.direction);
         self.lengths.put(path, 0);

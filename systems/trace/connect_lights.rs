@@ -1,10 +1,11 @@
 //! Connections to lights.
 
 use super::super::tile::{Queues, SceneRef, TilePlace};
-use super::draws::Draws;
-use super::scatter::Scatterers;
+use super::draws::{DrawColumns, Draws};
+use super::scatter::{ScattererColumns, Scatterers};
 use crate::geometry::{RayOrigin, SegmentTarget};
 use crate::path::{ChainTable, ConnectList, ProposalTable, RayChain, RayTable, VertexConnection};
+use crate::scene::Scene;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut};
 
@@ -21,23 +22,56 @@ pub fn connect_lights(
     mut origins: Write<RayOrigin, RayTable>,
     mut targets: Write<SegmentTarget, RayTable>,
 ) {
-    let scene = &*scene.0;
-    let (list, draws, scatterers) = (list.rows(), draws.columns(&place), scatterers.columns());
-    let (ray_chains, origins, targets) = (ray_chains.rows(), origins.rows(), targets.rows());
-    let connections = connections.rows();
-    let mut segments = 0;
-    for entry in 0..queues.connect {
-        let chain = list.at(entry) as usize;
-        let (depth, vertex, scatterer) = scatterers.at(&place, chain);
-        let Some(connection) = scatterer.connect(scene, draws.light(chain, depth)) else {
-            continue;
-        };
-        connections.put(vertex, connection.value);
-        ray_chains.put(segments, chain as u32);
-        origins.put(segments, connection.origin);
-        targets.put(segments, connection.target);
-        segments += 1;
-    }
-    queues.segments = segments;
+    let run = Run {
+        scene: &scene.0,
+        place: &place,
+        list: list.rows(),
+        draws: draws.columns(&place),
+        scatterers: scatterers.columns(),
+        connections: connections.rows(),
+        ray_chains: ray_chains.rows(),
+        origins: origins.rows(),
+        targets: targets.rows(),
+    };
+    // Compiled twice: what a scene has none of is not asked about at every vertex.
+    queues.segments = if run.scatterers.is_plain() {
+        run.connect(true, queues.connect)
+    } else {
+        run.connect(false, queues.connect)
+    };
     queues.connect = 0;
+}
+
+/// One run of the system: its columns as slices.
+struct Run<'a> {
+    scene: &'a Scene,
+    place: &'a TilePlace,
+    list: &'a [ConnectList],
+    draws: DrawColumns<'a>,
+    scatterers: ScattererColumns<'a>,
+    connections: &'a mut [VertexConnection],
+    ray_chains: &'a mut [RayChain],
+    origins: &'a mut [RayOrigin],
+    targets: &'a mut [SegmentTarget],
+}
+
+impl Run<'_> {
+    /// Connects the first `count` listed vertices; the number of segments that this gives.
+    #[inline(always)]
+    fn connect(self, plain: bool, count: usize) -> usize {
+        let mut segments = 0;
+        for entry in 0..count {
+            let chain = self.list.at(entry) as usize;
+            let (depth, vertex, scatterer) = self.scatterers.at(plain, self.place, chain);
+            let Some(connection) = scatterer.connect(self.scene, self.draws.light(chain, depth)) else {
+                continue;
+            };
+            self.connections.put(vertex, connection.value);
+            self.ray_chains.put(segments, chain as u32);
+            self.origins.put(segments, connection.origin);
+            self.targets.put(segments, connection.target);
+            segments += 1;
+        }
+        segments
+    }
 }

@@ -1,7 +1,7 @@
 //! Vertices where rays ended.
 
 use super::super::tile::{Counters, Queues, SceneRef, TilePlace, connectable};
-use super::ends::{Arrival, Ends};
+use super::ends::{Arrival, EndColumns, Ends};
 use crate::color::Rgb;
 use crate::geometry::{Hit, HitInstance, HitPrimitive, HitUv, NO_HIT, NOT_EMITTING};
 use crate::path::mis::Heuristic;
@@ -63,148 +63,229 @@ pub fn extend_paths(
     mut ends: Ends,
     mut lists: Lists,
 ) {
-    let scene = &*scene.0;
     if !queues.starting {
         queues.draw = 0;
     }
-    let (paths, directions) = (hits.paths.rows(), hits.directions.rows());
-    let (instances, primitives, uvs) = (hits.instances.rows(), hits.primitives.rows(), hits.uvs.rows());
-    let lengths = lengths.rows();
-    let (kinds, positions, normals) = (
-        vertices.kinds.rows(),
-        vertices.positions.rows(),
-        vertices.normals.rows(),
-    );
-    let (offsets, ratios, densities) = (
-        vertices.offsets.rows(),
-        vertices.ratios.rows(),
-        vertices.densities.rows(),
-    );
-    let (emissions, connections) = (vertices.emissions.rows(), vertices.connections.rows());
-    let (shading_normals, materials) = (vertices.shading_normals.rows(), vertices.materials.rows());
-    let names = (
-        vertices.instances.rows(),
-        vertices.primitives.rows(),
-        vertices.uvs.rows(),
-    );
-    let (textures, tangents) = (vertices.textures.rows(), vertices.tangents.rows());
-    let (connect, draw, scatter) = (lists.connect.rows(), lists.draw.rows(), lists.scatter.rows());
-    let mut ends = ends.columns();
-    for ray in 0..queues.rays {
-        let path = paths.at(ray) as usize;
-        let from_light = place.starts_at_light(path);
-        let instance = instances.at(ray);
-        let escaped = instance == NO_HIT;
-        if escaped && (from_light || !scene.lights.has_infinite()) {
-            continue;
-        }
-        let direction = directions.at(path);
-        let depth = lengths.at(path) + 1;
-        let (previous, vertex) = (place.vertex(path, depth - 1), place.vertex(path, depth));
-        lengths.put(path, depth);
-        counters.vertices += 1;
-        ratios.put(vertex, Rgb::BLACK);
-        densities.put(vertex, 0.0);
-        if !connections.is_empty() {
-            connections.put(vertex, Rgb::BLACK);
-        }
-        if escaped {
-            let sampled_before =
-                connectable(kinds.at(previous)).then(|| (positions.at(previous), densities.at(previous)));
-            // The vertex has the direction in which its light travels, and no position.
-            kinds.put(vertex, VERTEX_INFINITE);
-            positions.put(vertex, positions.at(previous));
-            normals.put(vertex, -direction);
-            offsets.put(vertex, 0.0);
-            if !emissions.is_empty() {
-                emissions.put(vertex, met_at_infinity(scene, direction, sampled_before));
+    let run = Run {
+        scene: &scene.0,
+        place: &place,
+        paths: hits.paths.rows(),
+        directions: hits.directions.rows(),
+        hits: (hits.instances.rows(), hits.primitives.rows(), hits.uvs.rows()),
+        lengths: lengths.rows(),
+        kinds: vertices.kinds.rows(),
+        positions: vertices.positions.rows(),
+        normals: vertices.normals.rows(),
+        offsets: vertices.offsets.rows(),
+        ratios: vertices.ratios.rows(),
+        densities: vertices.densities.rows(),
+        emissions: vertices.emissions.rows(),
+        connections: vertices.connections.rows(),
+        shading_normals: vertices.shading_normals.rows(),
+        materials: vertices.materials.rows(),
+        names: (
+            vertices.instances.rows(),
+            vertices.primitives.rows(),
+            vertices.uvs.rows(),
+        ),
+        textures: vertices.textures.rows(),
+        tangents: vertices.tangents.rows(),
+        connect: lists.connect.rows(),
+        scatter: lists.scatter.rows(),
+        draw: lists.draw.rows(),
+        ends: ends.columns(),
+    };
+    // Compiled twice: what a scene has none of is not asked about at every vertex.
+    if run.is_plain() {
+        run.extend(true, &mut queues, &mut counters);
+    } else {
+        run.extend(false, &mut queues, &mut counters);
+    }
+    queues.rays = 0;
+}
+
+/// One run of the system: its columns as slices.
+struct Run<'a> {
+    scene: &'a Scene,
+    place: &'a TilePlace,
+    paths: &'a [RayChain],
+    directions: &'a [Direction],
+    hits: (&'a [HitInstance], &'a [HitPrimitive], &'a [HitUv]),
+    lengths: &'a mut [PathLength],
+    kinds: &'a mut [VertexKind],
+    positions: &'a mut [VertexPosition],
+    normals: &'a mut [VertexNormal],
+    offsets: &'a mut [VertexOffset],
+    ratios: &'a mut [VertexRatio],
+    densities: &'a mut [VertexDensity],
+    emissions: &'a mut [VertexEmission],
+    connections: &'a mut [VertexConnection],
+    shading_normals: &'a mut [VertexShadingNormal],
+    materials: &'a mut [VertexMaterial],
+    names: (&'a mut [VertexInstance], &'a mut [VertexPrimitive], &'a mut [VertexUv]),
+    textures: &'a mut [VertexTexture],
+    tangents: &'a mut [VertexTangent],
+    connect: &'a mut [ConnectList],
+    scatter: &'a mut [ScatterList],
+    draw: &'a mut [DrawList],
+    ends: Option<EndColumns<'a>>,
+}
+
+impl Run<'_> {
+    /// Whether paths come from the camera alone and have neither textures nor tangents, no light is at infinity, and
+    /// surfaces are alike from both sides.
+    fn is_plain(&self) -> bool {
+        let detailed = !self.textures.is_empty() || !self.tangents.is_empty();
+        let (lights, materials) = (&self.scene.lights, &self.scene.materials);
+        let special = materials.have_sides() || lights.has_infinite();
+        self.place.is_camera_only() && self.ends.is_none() && !special && !detailed
+    }
+
+    #[inline(always)]
+    fn extend(self, plain: bool, queues: &mut Queues, counters: &mut Counters) {
+        let Self {
+            scene,
+            place,
+            paths,
+            directions,
+            hits: (instances, primitives, uvs),
+            lengths,
+            kinds,
+            positions,
+            normals,
+            offsets,
+            ratios,
+            densities,
+            emissions,
+            connections,
+            shading_normals,
+            materials,
+            names,
+            textures,
+            tangents,
+            connect,
+            scatter,
+            draw,
+            mut ends,
+        } = self;
+        for ray in 0..queues.rays {
+            let path = paths.at(ray) as usize;
+            let from_light = !plain && place.starts_at_light(path);
+            let instance = instances.at(ray);
+            let escaped = instance == NO_HIT;
+            if escaped && (plain || from_light || !scene.lights.has_infinite()) {
+                continue;
             }
-            if let Some(ends) = &mut ends {
+            let direction = directions.at(path);
+            let depth = lengths.at(path) + 1;
+            let (previous, vertex) = (place.vertex(path, depth - 1), place.vertex(path, depth));
+            lengths.put(path, depth);
+            counters.vertices += 1;
+            ratios.put(vertex, Rgb::BLACK);
+            densities.put(vertex, 0.0);
+            if !connections.is_empty() {
+                connections.put(vertex, Rgb::BLACK);
+            }
+            if !plain && escaped {
+                let sampled_before =
+                    connectable(kinds.at(previous)).then(|| (positions.at(previous), densities.at(previous)));
+                // The vertex has the direction in which its light travels, and no position.
+                kinds.put(vertex, VERTEX_INFINITE);
+                positions.put(vertex, positions.at(previous));
+                normals.put(vertex, -direction);
+                offsets.put(vertex, 0.0);
+                if !emissions.is_empty() {
+                    emissions.put(vertex, met_at_infinity(scene, direction, sampled_before));
+                }
+                if !plain && let Some(ends) = &mut ends {
+                    let arrival = Arrival {
+                        path,
+                        depth,
+                        direction,
+                        light: NOT_EMITTING,
+                    };
+                    ends.append(scene, place, &arrival, (kinds, positions, normals, densities));
+                }
+                continue;
+            }
+            let hit = Hit {
+                instance,
+                primitive: primitives.at(ray),
+                uv: uvs.at(ray),
+            };
+            let point = scene.geometry.surface_point(hit);
+            kinds.put(vertex, VERTEX_SURFACE);
+            positions.put(vertex, point.position);
+            normals.put(vertex, point.geometric_normal);
+            offsets.put(vertex, point.offset);
+            if !emissions.is_empty() {
+                let mut emission = Rgb::BLACK;
+                if point.light != NOT_EMITTING {
+                    emission = scene.lights.radiance(point.light, point.geometric_normal, -direction);
+                    if connectable(kinds.at(previous)) {
+                        let from = positions.at(previous);
+                        let sampled = scene
+                            .lights
+                            .density(point.light, from, point.position, point.geometric_normal);
+                        emission = emission * Heuristic::Power.share(densities.at(previous), sampled);
+                    }
+                }
+                emissions.put(vertex, emission);
+            }
+            if !plain && let Some(ends) = &mut ends {
                 let arrival = Arrival {
                     path,
                     depth,
                     direction,
-                    light: NOT_EMITTING,
+                    light: point.light,
                 };
-                ends.append(scene, &place, &arrival, (kinds, positions, normals, densities));
+                ends.append(scene, place, &arrival, (kinds, positions, normals, densities));
             }
-            continue;
-        }
-        let hit = Hit {
-            instance,
-            primitive: primitives.at(ray),
-            uv: uvs.at(ray),
-        };
-        let point = scene.geometry.surface_point(hit);
-        kinds.put(vertex, VERTEX_SURFACE);
-        positions.put(vertex, point.position);
-        normals.put(vertex, point.geometric_normal);
-        offsets.put(vertex, point.offset);
-        if !emissions.is_empty() {
-            let mut emission = Rgb::BLACK;
-            if point.light != NOT_EMITTING {
-                emission = scene.lights.radiance(point.light, point.geometric_normal, -direction);
-                if connectable(kinds.at(previous)) {
-                    let from = positions.at(previous);
-                    let sampled = scene
-                        .lights
-                        .density(point.light, from, point.position, point.geometric_normal);
-                    emission = emission * Heuristic::Power.share(densities.at(previous), sampled);
+            if shading_normals.is_empty() {
+                continue;
+            }
+            shading_normals.put(vertex, point.shading_normal);
+            let mut material = point.material;
+            if !plain {
+                let front = point.geometric_normal.dot(direction) < 0.0;
+                material = scene.materials.facing(material, front);
+            }
+            materials.put(vertex, material);
+            if !names.0.is_empty() {
+                names.0.put(vertex, hit.instance);
+                names.1.put(vertex, hit.primitive);
+                names.2.put(vertex, hit.uv);
+            }
+            if !(plain || textures.is_empty() && tangents.is_empty()) {
+                let local = scene.geometry.texture_point(hit);
+                if !textures.is_empty() {
+                    textures.put(vertex, local.uv);
+                }
+                if !tangents.is_empty() {
+                    tangents.put(vertex, local.tangent);
                 }
             }
-            emissions.put(vertex, emission);
-        }
-        if let Some(ends) = &mut ends {
-            let arrival = Arrival {
-                path,
-                depth,
-                direction,
-                light: point.light,
-            };
-            ends.append(scene, &place, &arrival, (kinds, positions, normals, densities));
-        }
-        if shading_normals.is_empty() {
-            continue;
-        }
-        shading_normals.put(vertex, point.shading_normal);
-        let front = point.geometric_normal.dot(direction) < 0.0;
-        let material = scene.materials.facing(point.material, front);
-        materials.put(vertex, material);
-        if !names.0.is_empty() {
-            names.0.put(vertex, hit.instance);
-            names.1.put(vertex, hit.primitive);
-            names.2.put(vertex, hit.uv);
-        }
-        if !(textures.is_empty() && tangents.is_empty()) {
-            let local = scene.geometry.texture_point(hit);
-            if !textures.is_empty() {
-                textures.put(vertex, local.uv);
-            }
-            if !tangents.is_empty() {
-                tangents.put(vertex, local.tangent);
-            }
-        }
 
-        // The lens adds an edge to every light subpath.
-        let last = scene.max_depth - u32::from(from_light);
-        if !draw.is_empty() && (depth < last || (from_light && depth == last)) {
-            draw.put(queues.draw, path as u32);
-            queues.draw += 1;
-        }
-        if depth >= last {
-            continue;
-        }
-        let kind = scene.materials.kind(material);
-        if !kind.is_discrete() && !connections.is_empty() {
-            connect.put(queues.connect, path as u32);
-            queues.connect += 1;
-        }
-        if let Some(model) = scene.materials.model(kind) {
-            scatter.put(place.vertex(queues.scatter[model], model as u32), path as u32);
-            queues.scatter[model] += 1;
+            // The lens adds an edge to every light subpath.
+            let last = scene.max_depth - u32::from(from_light);
+            if !draw.is_empty() && (depth < last || (from_light && depth == last)) {
+                draw.put(queues.draw, path as u32);
+                queues.draw += 1;
+            }
+            if depth >= last {
+                continue;
+            }
+            let kind = scene.materials.kind(material);
+            if !kind.is_discrete() && !connections.is_empty() {
+                connect.put(queues.connect, path as u32);
+                queues.connect += 1;
+            }
+            if let Some(model) = scene.materials.model(kind) {
+                scatter.put(place.vertex(queues.scatter[model], model as u32), path as u32);
+                queues.scatter[model] += 1;
+            }
         }
     }
-    queues.rays = 0;
 }
 
 /// Radiance from all lights at infinity along `-direction`, each weighted against sampling it from the vertex before, which

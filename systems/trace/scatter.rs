@@ -72,21 +72,29 @@ impl Scatterers<'_, '_> {
 }
 
 impl SurfaceColumns<'_> {
-    /// The surface point of a vertex, where a path arrives in `direction`.
+    /// Whether surface points have neither texture coordinates nor tangents.
+    #[inline]
+    #[must_use]
+    pub const fn is_plain(&self) -> bool {
+        self.uvs.is_empty() && self.tangents.is_empty()
+    }
+
+    /// The surface point of a vertex, where a path arrives in `direction`. `plain` says that [`is_plain`](Self::is_plain) is
+    /// known to hold.
     #[inline(always)]
-    pub fn at(&self, vertex: usize, direction: Vec3) -> Scatterer {
+    pub fn at(&self, plain: bool, vertex: usize, direction: Vec3) -> Scatterer {
         Scatterer {
             position: self.positions.at(vertex),
             normal: self.normals.at(vertex),
             shading_normal: self.shading_normals.at(vertex),
             offset: self.offsets.at(vertex),
             material: self.materials.at(vertex),
-            uv: if self.uvs.is_empty() {
+            uv: if plain || self.uvs.is_empty() {
                 Vec2::ZERO
             } else {
                 self.uvs.at(vertex)
             },
-            tangent: if self.tangents.is_empty() {
+            tangent: if plain || self.tangents.is_empty() {
                 Vec3::ZERO
             } else {
                 self.tangents.at(vertex)
@@ -97,12 +105,19 @@ impl SurfaceColumns<'_> {
 }
 
 impl ScattererColumns<'_> {
-    /// Depth, vertex number and surface point of a path's last vertex.
+    /// Whether surface points have neither texture coordinates nor tangents.
     #[inline]
-    pub fn at(&self, place: &TilePlace, path: usize) -> (u32, usize, Scatterer) {
+    #[must_use]
+    pub const fn is_plain(&self) -> bool {
+        self.surface.is_plain()
+    }
+
+    /// Depth, vertex number and surface point of a path's last vertex.
+    #[inline(always)]
+    pub fn at(&self, plain: bool, place: &TilePlace, path: usize) -> (u32, usize, Scatterer) {
         let depth = self.lengths.at(path);
         let vertex = place.vertex(path, depth);
-        (depth, vertex, self.surface.at(vertex, self.directions.at(path)))
+        (depth, vertex, self.surface.at(plain, vertex, self.directions.at(path)))
     }
 }
 
@@ -134,16 +149,72 @@ impl Outcomes<'_, '_> {
         list: impl Fn(usize) -> u32,
         sample: impl Fn(&Scatterer, Vec3, usize, u32, Transport) -> Option<Scattered>,
     ) {
-        let (lengths, surface) = (self.lengths.rows(), self.surface.columns());
-        let (kinds, ratios, densities) = (self.kinds.rows(), self.ratios.rows(), self.densities.rows());
-        let (directions, throughputs) = (self.directions.rows(), self.throughputs.rows());
-        let (scales, scattered, reverses) = (self.scales.rows(), self.scattered.rows(), self.reverses.rows());
+        let run = Run {
+            place,
+            lengths: self.lengths.rows(),
+            surface: self.surface.columns(),
+            kinds: self.kinds.rows(),
+            ratios: self.ratios.rows(),
+            densities: self.densities.rows(),
+            reverses: self.reverses.rows(),
+            directions: self.directions.rows(),
+            throughputs: self.throughputs.rows(),
+            scales: self.scales.rows(),
+            scattered: self.scattered.rows(),
+        };
+        // Compiled twice: what a scene has none of is not asked about at every vertex.
+        if place.is_camera_only() && run.surface.is_plain() && run.reverses.is_empty() {
+            run.scatter(true, queues, count, list, sample);
+        } else {
+            run.scatter(false, queues, count, list, sample);
+        }
+    }
+}
+
+/// One run of a scatter system: its columns as slices.
+struct Run<'a> {
+    place: &'a TilePlace,
+    lengths: &'a [PathLength],
+    surface: SurfaceColumns<'a>,
+    kinds: &'a mut [VertexKind],
+    ratios: &'a mut [VertexRatio],
+    densities: &'a mut [VertexDensity],
+    reverses: &'a mut [VertexReverse],
+    directions: &'a mut [Direction],
+    throughputs: &'a mut [Throughput],
+    scales: &'a mut [RadianceScale],
+    scattered: &'a mut [ScatteredList],
+}
+
+impl Run<'_> {
+    #[inline(always)]
+    fn scatter(
+        self,
+        plain: bool,
+        queues: &mut Queues,
+        count: usize,
+        list: impl Fn(usize) -> u32,
+        sample: impl Fn(&Scatterer, Vec3, usize, u32, Transport) -> Option<Scattered>,
+    ) {
+        let Self {
+            place,
+            lengths,
+            surface,
+            kinds,
+            ratios,
+            densities,
+            reverses,
+            directions,
+            throughputs,
+            scales,
+            scattered,
+        } = self;
         for entry in 0..count {
             let path = list(entry) as usize;
             let depth = lengths.at(path);
             let vertex = place.vertex(path, depth);
-            let scatterer = surface.at(vertex, directions.at(path));
-            let transport = if place.starts_at_light(path) {
+            let scatterer = surface.at(plain, vertex, directions.at(path));
+            let transport = if !plain && place.starts_at_light(path) {
                 Transport::Importance
             } else {
                 Transport::Radiance
@@ -158,7 +229,7 @@ impl Outcomes<'_, '_> {
             }
             ratios.put(vertex, outcome.ratio);
             densities.put(vertex, outcome.density);
-            if !reverses.is_empty() {
+            if !plain && !reverses.is_empty() {
                 reverses.put(vertex, outcome.reverse);
             }
             directions.put(path, direction);

@@ -68,7 +68,7 @@ impl SubpathColumns<'_> {
             };
             let weighs = !self.forwards.is_empty();
             vertices.push(EndVertex {
-                surface: self.surface.at(vertex, arrival),
+                surface: self.surface.at(false, vertex, arrival),
                 kind: self.kinds.at(vertex),
                 light: self.lights.at(vertex),
                 forward: if weighs { self.forwards.at(vertex) } else { 0.0 },
