@@ -16,7 +16,7 @@ use chainlight::systems::SystemCost;
 use chainlight::systems::list::{COUNT_VISITS, TRACE_LOOP};
 use std::sync::Arc;
 use std::time::Instant;
-use support::{bumpy_room, cornell_box, median};
+use support::{bumpy_room, median, shipped};
 
 /// Pixels along each side of the film.
 const SIZE: u32 = 64;
@@ -197,7 +197,7 @@ fn main() {
     let parts = ["box", "room", "prices"];
     let asked = |part: &str| arguments.iter().any(|argument| argument == part);
     let wanted = |part| asked(part) || !parts.into_iter().any(asked);
-    let box_scene = cornell_box(SIZE);
+    let box_scene = shipped("cornell-box", SIZE);
     if wanted("box") {
         tables("Cornell box", &box_scene);
     }

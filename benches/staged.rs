@@ -16,7 +16,7 @@ use criterion::{BenchmarkId, Criterion, Throughput};
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use support::{bumpy_room, cornell_box, median};
+use support::{bumpy_room, median, shipped};
 
 const SIZE: u32 = 64;
 const ROUNDS: usize = 15;
@@ -105,7 +105,7 @@ fn price_of_the_clock(scene: &Arc<Scene>) {
 }
 
 fn main() {
-    let box_scene = cornell_box(SIZE);
+    let box_scene = shipped("cornell-box", SIZE);
     let room = bumpy_room(2_090_000, SIZE);
     let mut criterion = Criterion::default().configure_from_args().sample_size(10);
     for (name, scene) in [("cornell box", &box_scene), ("two million triangles", &room)] {

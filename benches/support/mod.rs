@@ -10,9 +10,9 @@ use glam::Vec3;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The shipped Cornell box with a film of `size` x `size` pixels.
-pub fn cornell_box(size: u32) -> Arc<Scene> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/cornell-box.ron");
+/// The shipped scene of this name with a film of `size` x `size` pixels.
+pub fn shipped(name: &str, size: u32) -> Arc<Scene> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.ron"));
     let source = read_scene(&path).expect("a shipped scene");
     let flattened = flatten(&source).expect("a shipped scene");
     let overrides = SceneOverrides {
