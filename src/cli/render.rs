@@ -93,6 +93,7 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
         Err(error) if error.is::<Interrupted>() => return Ok(nothing_written(&bar)),
         begun => begun?,
     };
+    args.budget.check_resumed(goal.budget, render.steps())?;
     let outcome = drive(&mut *render, goal, &interrupt, &|p| show(&bar, &loaded, p));
     bar.finish_and_clear();
     if outcome.steps == 0 {

@@ -150,7 +150,7 @@ impl Plan {
         let effects = effect::effects(scene);
         let mut chains = None;
         let mut strategies = None;
-        let tile = match technique {
+        let mut tile = match technique {
             Technique::Pt => TilePlan::new(
                 path_tracing::systems(scene, &effects),
                 path_tracing::tables(scene, &effects),
@@ -192,6 +192,7 @@ impl Plan {
                 tile
             }
         };
+        tile.heuristic = options.heuristic;
         let (width, height) = (scene.width, scene.height);
         let splat_films = if chains.is_none() && strategies.is_some() {
             SPLAT_FILMS

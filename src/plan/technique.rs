@@ -95,6 +95,12 @@ impl Technique {
     /// Those whose samples are independent, and each of one pixel.
     pub const INDEPENDENT: [Self; 2] = [Self::Pt, Self::PtReference];
 
+    /// Whether its samples are states of Markov chains, and not independent.
+    #[must_use]
+    pub const fn has_chains(self) -> bool {
+        matches!(self, Self::Pssmlt | Self::PssmltReference)
+    }
+
     /// The name on the command line and in files.
     #[must_use]
     pub const fn name(self) -> &'static str {

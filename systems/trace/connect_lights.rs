@@ -29,7 +29,7 @@ pub fn connect_lights(
     for entry in 0..queues.connect {
         let chain = list.at(entry) as usize;
         let (depth, vertex, scatterer) = scatterers.at(&place, chain);
-        let Some(connection) = scatterer.connect(scene, draws.light(chain, depth)) else {
+        let Some(connection) = scatterer.connect(scene, draws.light(chain, depth), place.heuristic) else {
             continue;
         };
         connections.put(vertex, connection.value);
