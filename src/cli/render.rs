@@ -3,7 +3,7 @@
 use super::budget::{BudgetArgs, Default, TargetArgs, ThreadArgs};
 use super::load::{Loaded, SceneArgs, settings};
 use super::output::{count, note, print};
-use super::report::Report;
+use super::report::{Report, missed};
 use super::target::check_writable;
 use super::{interrupt, memory};
 use crate::film::{PictureMetadata, ToneMap, write_exr, write_file, write_png};
@@ -75,6 +75,9 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
     let pixels = loaded.scene.pixel_count();
     let default = Default::Samples(DEFAULT_SPP);
     let goal = args.target.within(args.budget, &loaded.plan, pixels, default)?;
+    for warning in missed(&loaded.plan) {
+        note(&format!("warning: {warning}"));
+    }
     let interrupt = interrupt::listen()?;
     let bar = progress_bar();
     let (scene, plan) = (Arc::clone(&loaded.scene), loaded.plan.clone());

@@ -4,7 +4,8 @@ use super::load::{Loaded, settings};
 use super::output::{count, note};
 use super::render::RenderArgs;
 use crate::film::{ImageView, Picture};
-use crate::render::{ChainRender, Findings, Outcome, Rendering, Stop};
+use crate::plan::Plan;
+use crate::render::{ChainRender, Findings, Outcome, Rendering, Stop, blank};
 use crate::stats::error::PictureError;
 use serde::Serialize;
 use std::path::Path;
@@ -45,6 +46,9 @@ pub(super) struct Report {
     vanished: u64,
     chains: Option<Findings>,
     warnings: Vec<String>,
+    /// Those of the warnings that are yet to be told.
+    #[serde(skip)]
+    untold: Vec<String>,
 }
 
 impl Report {
@@ -69,7 +73,10 @@ impl Report {
         let rms_error = rms_error.is_finite().then_some(rms_error);
         let seconds = outcome.elapsed.as_secs_f64();
         let mut warnings = loaded.warnings.clone();
-        warnings.extend(chains.iter().flat_map(Findings::warnings));
+        warnings.extend(missed(&loaded.plan));
+        let mut untold: Vec<String> = chains.iter().flat_map(Findings::warnings).collect();
+        untold.extend(blank(render, picture));
+        warnings.extend_from_slice(&untold);
         let error = chains
             .as_ref()
             .map_or_else(|| render.error(), |findings| findings.error);
@@ -106,6 +113,7 @@ impl Report {
             vanished: tally.vanished,
             chains,
             warnings,
+            untold,
         }
     }
 
@@ -161,10 +169,17 @@ impl Report {
                 self.saturated
             ));
         }
-        for warning in self.chains.iter().flat_map(Findings::warnings) {
+        for warning in &self.untold {
             note(&format!("warning: {warning}"));
         }
     }
+}
+
+/// What the technique cannot find of what the camera sees, in words: known before rendering.
+pub(super) fn missed(plan: &Plan) -> Vec<String> {
+    let seen = plan.missing.iter().filter(|missing| missing.share > 0.0);
+    seen.map(|missing| format!("{} cannot find {missing}", plan.technique))
+        .collect()
 }
 
 /// The mean of `f` over pixels and channels.

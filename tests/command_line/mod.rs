@@ -1,5 +1,6 @@
 //! The program as a user runs it: arguments, files, messages, exit codes, interruption.
 
+mod black;
 mod chains;
 mod options;
 
