@@ -89,6 +89,8 @@ pub struct Loaded {
     pub plan: Plan,
     /// The reconstruction filter.
     pub filter: FilterDescription,
+    /// Stops by which the picture is shown brighter than its automatic exposure.
+    pub exposure: f32,
     /// What the reader warned of, one line each.
     pub warnings: Vec<String>,
     /// From file to tables.
@@ -143,6 +145,7 @@ impl SceneArgs {
             scene,
             plan,
             filter: source.description.film.filter.clone(),
+            exposure: source.description.film.exposure,
             warnings,
             load_time: start.elapsed(),
         })

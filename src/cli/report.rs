@@ -3,7 +3,7 @@
 use super::load::{Loaded, settings};
 use super::output::{count, note};
 use super::render::RenderArgs;
-use crate::film::{ImageView, Picture};
+use crate::film::{ImageView, Picture, ToneMap};
 use crate::plan::Plan;
 use crate::render::{ChainRender, Findings, Outcome, Rendering, Stop, blank};
 use crate::stats::error::PictureError;
@@ -25,6 +25,8 @@ pub(super) struct Report {
     /// Whether it ended because its error was below the target.
     target_reached: bool,
     output: String,
+    /// Stops: the PNG shows light times two to the power of it.
+    png_exposure: f32,
     threads: usize,
     load_seconds: f64,
     bootstrap_seconds: Option<f64>,
@@ -93,6 +95,7 @@ impl Report {
             interrupted: outcome.stop == Stop::Interrupted,
             target_reached: outcome.stop == Stop::TargetReached,
             output: output.display().to_string(),
+            png_exposure: 0.0,
             threads: render.threads(),
             load_seconds: loaded.load_time.as_secs_f64(),
             bootstrap_seconds: render
@@ -114,6 +117,14 @@ impl Report {
             chains,
             warnings,
             untold,
+        }
+    }
+
+    /// With how the PNG shows it.
+    pub(super) fn shown(self, tone: ToneMap) -> Self {
+        Self {
+            png_exposure: tone.exposure,
+            ..self
         }
     }
 

@@ -1,8 +1,9 @@
 //! Options that would change nothing are refused, and those that are taken have an effect.
 
-use super::{check_refusals, cornell, fail, scene, succeed};
+use super::{check_refusals, copy_meshes, cornell, fail, scene, succeed};
 use chainlight::color::Rgb;
 use chainlight::film::{ExrPicture, read_exr};
+use serde_json::Value;
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -195,4 +196,46 @@ fn path_tracing_weighs_by_the_heuristic_that_is_asked_for() {
     );
     assert!(balance.metadata["settings"].ends_with("heuristic=balance"));
     assert_eq!(power.metadata, default.metadata);
+}
+
+/// The PNG alone.
+#[test]
+fn exposure_scales_the_png_and_nothing_else() {
+    let folder = TempDir::new().expect("a folder");
+    let text = std::fs::read_to_string(scene("cornell-box.ron")).expect("a shipped scene");
+    let bright = text.replacen("film: (", "film: (exposure: 2, ", 1);
+    assert_ne!(bright, text);
+    copy_meshes(folder.path());
+    std::fs::write(folder.path().join("bright.ron"), bright).expect("written");
+    std::fs::write(folder.path().join("plain.ron"), text).expect("written");
+    let render = |scene: &str, more: &[&str]| {
+        let arguments = [
+            "render", scene, "--size", "24x24", "--spp", "4", "--json", "-o", "a.exr",
+        ];
+        let report: Value =
+            serde_json::from_str(&succeed(&[&arguments[..], more].concat(), folder.path())).expect("JSON");
+        let png = image::open(folder.path().join("a.png")).expect("a PNG").into_rgb8();
+        let sum: u64 = png.as_raw().iter().map(|&code| u64::from(code)).sum();
+        let light = read_exr(&folder.path().join("a.exr")).expect("a picture").rgb;
+        (report["png_exposure"].as_f64().expect("stops"), sum, light)
+    };
+    let (automatic, plain, light) = render("plain.ron", &[]);
+    for (scene, more, stops) in [
+        ("bright.ron", &[][..], 2.0),
+        ("plain.ron", &["--exposure", "2"], 2.0),
+        ("plain.ron", &["--exposure", "-1.5"], -1.5),
+        ("bright.ron", &["--exposure", "0"], 0.0),
+    ] {
+        let (exposure, sum, same_light) = render(scene, more);
+        assert!(
+            (exposure - automatic - stops).abs() < 1e-5,
+            "{scene} {more:?}: {exposure}"
+        );
+        assert_eq!(sum.cmp(&plain), stops.total_cmp(&0.0), "{scene} {more:?}");
+        assert!(same_light == light, "{scene} {more:?}");
+    }
+    for bad in ["33", "-32.1", "nan", "inf", "bright"] {
+        let error = fail(&["render", &cornell(), "--exposure", bad]);
+        assert!(error.contains("expected stops from -32 to 32"), "{error}");
+    }
 }
