@@ -5,6 +5,7 @@
 use crate::film::{BlockGrid, Film, GroupFilm};
 use crate::material::KINDS;
 use crate::path::bidirectional::Strategies;
+use crate::path::mis::Heuristic;
 use crate::path::{LIGHT_SUBPATH, VERTEX_DISCRETE, VERTEX_INFINITE, VERTEX_LENS};
 use crate::plan::{Extent, TablePlan, TilePlan};
 use crate::sampling::StreamKey;
@@ -60,6 +61,8 @@ pub struct TilePlace {
     pub lights_from: u32,
     /// The first depth whose vertices have primary coordinates: 0 where the numbers that start subpaths are among them.
     pub first_coordinate: u32,
+    /// How weights are made of densities where light that is met is weighed against sampling it.
+    pub heuristic: Heuristic,
     /// The step about to run, counted from 0 over the whole render.
     pub step: u64,
 }

@@ -216,6 +216,12 @@ fn mistakes_of_the_camera_the_film_and_the_settings() {
         ),
         ("a filter too narrow", "radius: 1.5", "radius: 0.1"),
         ("a filter too sharp", "sigma: 0.5", "sigma: 0"),
+        ("an exposure too bright", "height: 512", "height: 512, exposure: 33"),
+        (
+            "an exposure that is no number",
+            "height: 512",
+            "height: 512, exposure: NaN",
+        ),
     ]);
     insta::assert_snapshot!(report);
 }

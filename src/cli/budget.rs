@@ -18,6 +18,20 @@ pub struct BudgetArgs {
 }
 
 impl BudgetArgs {
+    /// Refuses a number of samples that a render which goes on has passed already.
+    ///
+    /// # Errors
+    /// Fewer samples, by [`of`](Self::of) a budget of `budget`, than the `taken` steps.
+    pub fn check_resumed(self, budget: Budget, taken: u64) -> Result<()> {
+        match (self.spp, budget) {
+            (Some(spp), Budget::Steps(steps)) if steps < taken => Err(miette!(
+                help = "--spp counts from the render's beginning: ask for more, or leave it out",
+                "--spp {spp} has no effect: it is {steps} steps, and the saved render has taken {taken}"
+            )),
+            _ => Ok(()),
+        }
+    }
+
     /// The budget of a render of `plan` before a film of `pixels` pixels, `default` where none was given.
     ///
     /// # Errors

@@ -22,6 +22,19 @@ pub struct ChainArgs {
 }
 
 impl ChainArgs {
+    /// The first of these options that was given, as it was written.
+    #[must_use]
+    pub fn given(self) -> Option<String> {
+        let options = [
+            ("--groups", self.groups),
+            ("--chains", self.chains),
+            ("--bootstrap", self.bootstrap),
+        ];
+        options
+            .into_iter()
+            .find_map(|(name, value)| Some(format!("{name} {}", value?)))
+    }
+
     /// The settings, defaults where nothing was given.
     ///
     /// # Errors

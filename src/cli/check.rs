@@ -10,7 +10,7 @@ use crate::scene::{Scene, SceneOverrides, flatten, read_scene};
 use crate::stats::normal::sidak;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use miette::{IntoDiagnostic, Result};
+use miette::{IntoDiagnostic, Result, miette};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -76,6 +76,7 @@ pub fn run(args: &CheckArgs, registry: &Registry) -> Result<ExitCode> {
     for name in &names {
         registry.get(name).map_err(CheckError::Unknown)?;
     }
+    refuse_unused(args, &registry)?;
     let scene = scene(args)?;
     let options = Options {
         base: args.base,
@@ -132,6 +133,32 @@ pub fn run(args: &CheckArgs, registry: &Registry) -> Result<ExitCode> {
         (true, true) => ExitCode::from(interrupt::EXIT_STATUS),
         (true, false) => ExitCode::SUCCESS,
     })
+}
+
+/// Refuses settings of mutations that no check would look at: each mutation is tried alone.
+fn refuse_unused(args: &CheckArgs, registry: &Registry) -> Result<()> {
+    for text in &args.mutations.mutation {
+        let (name, settings) = text.split_once(':').unwrap_or((text, ""));
+        let name = name.trim();
+        if settings
+            .split(',')
+            .any(|setting| setting.split('=').next().map(str::trim) == Some("weight"))
+        {
+            return Err(miette!(
+                help = "leave the weight out: it says how often renders try the mutation",
+                "--mutation {text}: a weight has no effect on checks, which try each mutation alone"
+            ));
+        }
+        // Independent ones draw what chains start from.
+        let draws = registry.get(name).is_ok_and(|mutation| mutation.is_independent());
+        if let Some(checked) = args.name.as_deref().filter(|checked| *checked != name && !draws) {
+            return Err(miette!(
+                help = format!("check `{name}`, or leave its settings out"),
+                "--mutation {text} has no effect on the check of `{checked}`"
+            ));
+        }
+    }
+    Ok(())
 }
 
 fn scene(args: &CheckArgs) -> Result<Arc<Scene>> {

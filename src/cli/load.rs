@@ -2,6 +2,8 @@
 
 use super::chains::ChainArgs;
 use super::output::note;
+use super::unused;
+use crate::path::bidirectional::Weights;
 use crate::path::mis::Heuristic;
 use crate::plan::{Base, Plan, PlanOptions, Registry, Technique, UnknownTechnique};
 use crate::scene::{
@@ -43,15 +45,16 @@ pub struct SceneArgs {
 /// How techniques with both ends join subpaths.
 #[derive(Args, Clone, Debug, Default)]
 pub struct StrategyArgs {
-    /// What the chains of pssmlt run over: pt or bdpt
-    #[arg(long, value_name = "NAME", default_value_t)]
-    pub base: Base,
-    /// The only strategy of bdpt to use, with weight one: S vertices from the light and T from the camera; for tests
+    /// What the chains of pssmlt run over: pt or bdpt [default: pt]
+    #[arg(long, value_name = "NAME")]
+    pub base: Option<Base>,
+    /// The only strategy of bdpt (or of pssmlt over it) to use, with weight one: S vertices from the light and T from the
+    /// camera; for tests
     #[arg(long, value_name = "S,T", value_parser = parse_strategy)]
     pub strategy: Option<(u32, u32)>,
-    /// How strategies of bdpt share paths: power or balance
-    #[arg(long, value_name = "NAME", default_value_t)]
-    pub heuristic: Heuristic,
+    /// How the ways in which pt and bdpt find a path share it: power or balance [default: power]
+    #[arg(long, value_name = "NAME")]
+    pub heuristic: Option<Heuristic>,
 }
 
 /// Settings of mutations.
@@ -86,6 +89,8 @@ pub struct Loaded {
     pub plan: Plan,
     /// The reconstruction filter.
     pub filter: FilterDescription,
+    /// Stops by which the picture is shown brighter than its automatic exposure.
+    pub exposure: f32,
     /// What the reader warned of, one line each.
     pub warnings: Vec<String>,
     /// From file to tables.
@@ -96,7 +101,8 @@ impl SceneArgs {
     /// Reads, compiles and plans, with the mutations of `registry`. Warnings are printed to standard error.
     ///
     /// # Errors
-    /// A file that is no valid scene, a technique that there is not, or mutations that chains cannot run with.
+    /// A file that is no valid scene, a technique that there is not, an option that would have no effect with it, or mutations
+    /// that chains cannot run with.
     pub fn load(&self, registry: &Registry) -> Result<Loaded> {
         let start = Instant::now();
         let mutations = self.mutations.apply(registry)?;
@@ -115,6 +121,8 @@ impl SceneArgs {
             })?,
             (None, None) => Technique::default(),
         };
+        let max_depth = self.max_depth.unwrap_or(source.description.settings.max_depth);
+        unused::refuse(self, technique, max_depth, &mutations)?;
         let overrides = SceneOverrides {
             size: self.size,
             max_depth: self.max_depth,
@@ -128,15 +136,16 @@ impl SceneArgs {
             tile_size: self.tile,
             chains: self.chains.settings()?,
             mutations,
-            base: self.strategies.base,
+            base: self.strategies.base.unwrap_or_default(),
             strategy: self.strategies.strategy,
-            heuristic: self.strategies.heuristic,
+            heuristic: self.strategies.heuristic.unwrap_or_default(),
         };
         let plan = Plan::with(&scene, technique, &options)?;
         Ok(Loaded {
             scene,
             plan,
             filter: source.description.film.filter.clone(),
+            exposure: source.description.film.exposure,
             warnings,
             load_time: start.elapsed(),
         })
@@ -169,6 +178,16 @@ pub fn settings(loaded: &Loaded) -> String {
         for planned in &chains.mutations {
             let _ = write!(settings, " {}={}", planned.mutation.name(), planned.mutation.settings());
         }
+        if loaded.plan.strategies.is_some() {
+            let _ = write!(settings, " base={}", Base::Bdpt);
+        }
+    }
+    if let Some(Weights::Only(s, t)) = loaded.plan.strategies.map(|strategies| strategies.weights) {
+        let _ = write!(settings, " strategy={s},{t}");
+    }
+    let heuristic = loaded.plan.tile.heuristic;
+    if heuristic != Heuristic::default() {
+        let _ = write!(settings, " heuristic={heuristic}");
     }
     settings
 }
@@ -193,7 +212,10 @@ fn parse_strategy(text: &str) -> Result<(u32, u32), String> {
     let vertices = |digits: &str| digits.trim().parse::<u32>().map_err(|_| form());
     let (s, t) = (vertices(s)?, vertices(t)?);
     if t == 0 || s + t < 2 {
-        return Err("a path has two vertices at least, and one of them is on the lens".to_owned());
+        return Err(
+            "T is 1 or more and S + T is 2 or more: a path has two vertices at least, and starts on the lens"
+                .to_owned(),
+        );
     }
     Ok((s, t))
 }

@@ -17,6 +17,7 @@ mod replay_text;
 mod report;
 pub mod schema;
 mod target;
+mod unused;
 
 use crate::plan::Registry;
 use clap::{Parser, Subcommand};

@@ -2,7 +2,7 @@
 
 use super::load::SceneArgs;
 use super::output::{bytes, print};
-use crate::plan::{ChainPlan, MutationPlan, Plan, Registry, Stage, TablePlan};
+use crate::plan::{ChainPlan, Missing, MutationPlan, Plan, Registry, Stage, TablePlan};
 use crate::render::{Built, BuiltTable, TileWorld, short};
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
@@ -24,6 +24,8 @@ pub struct PlanArgs {
 struct Report<'a> {
     technique: &'static str,
     effects: Vec<EffectRow<'a>>,
+    /// Light that the technique cannot find here.
+    missing: Vec<MissingRow<'a>>,
     chains: Option<ChainRow>,
     systems: Vec<SystemRow<'a>>,
     tables: Vec<TableRow<'a>>,
@@ -43,6 +45,15 @@ struct EffectRow<'a> {
     name: &'static str,
     on: bool,
     reason: &'a str,
+}
+
+#[derive(Serialize)]
+struct MissingRow<'a> {
+    what: &'a str,
+    share: f64,
+    found_by: &'static str,
+    #[serde(skip)]
+    text: String,
 }
 
 /// The chains of a plan and their mutations.
@@ -131,6 +142,7 @@ fn report<'a>(plan: &'a Plan, built: &'a Built, pixels: u32) -> Report<'a> {
                 reason: &e.reason,
             })
             .collect(),
+        missing: plan.missing.iter().map(missing_row).collect(),
         chains: plan.chains.as_ref().map(chain_row),
         systems,
         tables,
@@ -143,6 +155,15 @@ fn report<'a>(plan: &'a Plan, built: &'a Built, pixels: u32) -> Report<'a> {
         tracer_reason: &plan.tracer_reason,
         tree_bytes: plan.tree_bytes,
         film_bytes: plan.film_bytes,
+    }
+}
+
+fn missing_row(missing: &Missing) -> MissingRow<'_> {
+    MissingRow {
+        what: &missing.what,
+        share: missing.share,
+        found_by: missing.found_by,
+        text: missing.to_string(),
     }
 }
 
@@ -208,6 +229,12 @@ fn text(report: &Report<'_>) -> String {
             if effect.on { "on" } else { "off" },
             effect.reason
         );
+    }
+    if !report.missing.is_empty() {
+        let _ = writeln!(out, "\nmissing: {} cannot find", report.technique);
+        for missing in &report.missing {
+            let _ = writeln!(out, "  {}", missing.text);
+        }
     }
     if let Some(chains) = &report.chains {
         let _ = writeln!(

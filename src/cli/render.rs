@@ -3,12 +3,13 @@
 use super::budget::{BudgetArgs, Default, TargetArgs, ThreadArgs};
 use super::load::{Loaded, SceneArgs, settings};
 use super::output::{count, note, print};
-use super::report::Report;
+use super::report::{Report, missed};
 use super::target::check_writable;
 use super::{interrupt, memory};
 use crate::film::{PictureMetadata, ToneMap, write_exr, write_file, write_png};
 use crate::plan::Registry;
 use crate::render::{Findings, Progress, RenderError, drive, resume, start};
+use crate::scene::description::EXPOSURE;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use miette::{IntoDiagnostic, Result, miette};
@@ -40,6 +41,10 @@ pub struct RenderArgs {
     /// Go on with a saved render as if it had never stopped; --spp then counts from its beginning
     #[arg(long, value_name = "FILE")]
     resume: Option<PathBuf>,
+    /// Stops by which the PNG is shown brighter than its automatic exposure, or darker below 0, instead of the scene's; the EXR
+    /// file has the light itself
+    #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = parse_exposure)]
+    exposure: Option<f32>,
     /// Seed of all random numbers: the same seed gives the same bytes
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) seed: u64,
@@ -75,6 +80,9 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
     let pixels = loaded.scene.pixel_count();
     let default = Default::Samples(DEFAULT_SPP);
     let goal = args.target.within(args.budget, &loaded.plan, pixels, default)?;
+    for warning in missed(&loaded.plan) {
+        note(&format!("warning: {warning}"));
+    }
     let interrupt = interrupt::listen()?;
     let bar = progress_bar();
     let (scene, plan) = (Arc::clone(&loaded.scene), loaded.plan.clone());
@@ -93,6 +101,7 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
         Err(error) if error.is::<Interrupted>() => return Ok(nothing_written(&bar)),
         begun => begun?,
     };
+    args.budget.check_resumed(goal.budget, render.steps())?;
     let outcome = drive(&mut *render, goal, &interrupt, &|p| show(&bar, &loaded, p));
     bar.finish_and_clear();
     if outcome.steps == 0 {
@@ -104,11 +113,13 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
         picture = chains.with_layers(picture, findings);
     }
     write_exr(&output, &picture, &metadata(args, &loaded, outcome.steps))?;
-    write_png(&png, picture.view(), ToneMap::automatic(picture.view()))?;
+    let stops = args.exposure.unwrap_or(loaded.exposure);
+    let tone = ToneMap::automatic(picture.view()).brighter(stops);
+    write_png(&png, picture.view(), tone)?;
     if let Some(path) = &args.save {
         write_file(path, &render.save())?;
     }
-    let report = Report::new(args, &loaded, &*render, outcome, &picture, &output, findings);
+    let report = Report::new(args, &loaded, &*render, outcome, &picture, &output, findings).shown(tone);
     if args.json {
         print(&serde_json::to_string_pretty(&report).into_diagnostic()?)?;
     } else {
@@ -232,6 +243,16 @@ fn show(bar: &ProgressBar, loaded: &Loaded, progress: Progress) {
         message += &format!(", {:.0} % taken", 100.0 * acceptance);
     }
     bar.set_message(message);
+}
+
+fn parse_exposure(text: &str) -> Result<f32, String> {
+    let [least, most] = EXPOSURE;
+    match text.parse::<f32>() {
+        Ok(stops) if (least..=most).contains(&stops) => Ok(stops),
+        _ => Err(format!(
+            "expected stops from {least} to {most}, such as 2 for four times as bright"
+        )),
+    }
 }
 
 #[cfg(test)]

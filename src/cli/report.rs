@@ -3,8 +3,9 @@
 use super::load::{Loaded, settings};
 use super::output::{count, note};
 use super::render::RenderArgs;
-use crate::film::{ImageView, Picture};
-use crate::render::{ChainRender, Findings, Outcome, Rendering, Stop};
+use crate::film::{ImageView, Picture, ToneMap};
+use crate::plan::Plan;
+use crate::render::{ChainRender, Findings, Outcome, Rendering, Stop, blank};
 use crate::stats::error::PictureError;
 use serde::Serialize;
 use std::path::Path;
@@ -24,6 +25,8 @@ pub(super) struct Report {
     /// Whether it ended because its error was below the target.
     target_reached: bool,
     output: String,
+    /// Stops: the PNG shows light times two to the power of it.
+    png_exposure: f32,
     threads: usize,
     load_seconds: f64,
     bootstrap_seconds: Option<f64>,
@@ -45,6 +48,9 @@ pub(super) struct Report {
     vanished: u64,
     chains: Option<Findings>,
     warnings: Vec<String>,
+    /// Those of the warnings that are yet to be told.
+    #[serde(skip)]
+    untold: Vec<String>,
 }
 
 impl Report {
@@ -69,7 +75,10 @@ impl Report {
         let rms_error = rms_error.is_finite().then_some(rms_error);
         let seconds = outcome.elapsed.as_secs_f64();
         let mut warnings = loaded.warnings.clone();
-        warnings.extend(chains.iter().flat_map(Findings::warnings));
+        warnings.extend(missed(&loaded.plan));
+        let mut untold: Vec<String> = chains.iter().flat_map(Findings::warnings).collect();
+        untold.extend(blank(render, picture));
+        warnings.extend_from_slice(&untold);
         let error = chains
             .as_ref()
             .map_or_else(|| render.error(), |findings| findings.error);
@@ -86,6 +95,7 @@ impl Report {
             interrupted: outcome.stop == Stop::Interrupted,
             target_reached: outcome.stop == Stop::TargetReached,
             output: output.display().to_string(),
+            png_exposure: 0.0,
             threads: render.threads(),
             load_seconds: loaded.load_time.as_secs_f64(),
             bootstrap_seconds: render
@@ -106,6 +116,15 @@ impl Report {
             vanished: tally.vanished,
             chains,
             warnings,
+            untold,
+        }
+    }
+
+    /// With how the PNG shows it.
+    pub(super) fn shown(self, tone: ToneMap) -> Self {
+        Self {
+            png_exposure: tone.exposure,
+            ..self
         }
     }
 
@@ -161,10 +180,17 @@ impl Report {
                 self.saturated
             ));
         }
-        for warning in self.chains.iter().flat_map(Findings::warnings) {
+        for warning in &self.untold {
             note(&format!("warning: {warning}"));
         }
     }
+}
+
+/// What the technique cannot find of what the camera sees, in words: known before rendering.
+pub(super) fn missed(plan: &Plan) -> Vec<String> {
+    let seen = plan.missing.iter().filter(|missing| missing.share > 0.0);
+    seen.map(|missing| format!("{} cannot find {missing}", plan.technique))
+        .collect()
 }
 
 /// The mean of `f` over pixels and channels.

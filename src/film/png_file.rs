@@ -34,6 +34,14 @@ impl ToneMap {
         }
     }
 
+    /// The same by so many stops brighter.
+    #[must_use]
+    pub fn brighter(self, stops: f32) -> Self {
+        Self {
+            exposure: self.exposure + stops,
+        }
+    }
+
     /// The 8-bit sRGB code of a linear value, rounded to nearest. Not-a-number is shown as black.
     #[must_use]
     pub fn encode(self, linear: f32) -> u8 {
@@ -178,6 +186,8 @@ mod tests {
         // The geometric mean of 0.09 and 1.44 is 0.36, one stop above 0.18.
         assert!((ToneMap::automatic(view(&lit, 5)).exposure + 1.0).abs() < 1e-5);
         assert_eq!(ToneMap::automatic(view(&odd, 3)), ToneMap::default());
+        let brighter = ToneMap::automatic(view(&lit, 5)).brighter(3.0);
+        assert!((brighter.exposure - 2.0).abs() < 1e-5);
     }
 
     #[test]

@@ -206,7 +206,7 @@ impl LightTable {
         let (position, normal) = emitter.point(self.normals[number], point);
         let local = warp::cosine_hemisphere(direction);
         let direction = Frame::new(normal).to_world(local).normalize();
-        let densities = self.emission_densities(light, position, normal, direction);
+        let densities = self.emission_densities(light, normal, direction);
         // The cosine over its density is π.
         let ratio = emitter.radiance * (PI / densities.position);
         if !densities.are_usable() || !ratio.is_finite() {
@@ -244,12 +244,13 @@ impl LightTable {
         })
     }
 
-    /// The densities with which [`emit`](Self::emit) draws light that leaves `position` with the unit geometric normal
-    /// `normal` on light `light` along the unit direction `towards`. For lights that are no shapes position and normal do
-    /// not matter; for discrete ones the densities are those of the place or direction where the light is.
+    /// The densities with which [`emit`](Self::emit) draws light that leaves a point with the unit geometric normal `normal` of
+    /// light `light` along the unit direction `towards`. Points of a light are drawn uniformly, so which one does not matter.
+    /// For lights that are no shapes the normal does not matter either; for discrete ones the densities are those of the
+    /// place or direction where the light is.
     #[inline]
     #[must_use]
-    pub fn emission_densities(&self, light: u32, _position: Vec3, normal: Vec3, towards: Vec3) -> EmissionDensities {
+    pub fn emission_densities(&self, light: u32, normal: Vec3, towards: Vec3) -> EmissionDensities {
         match self.other(light) {
             None => EmissionDensities {
                 position: self.choice.probability(light as usize) / self.emitters[light as usize].area,

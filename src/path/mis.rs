@@ -53,10 +53,12 @@ impl Heuristic {
     #[inline]
     #[must_use]
     pub fn odds(self, ratio: f64) -> f64 {
-        let odds = match self {
-            Self::Balance => ratio,
-            Self::Power => ratio * ratio,
-        };
+        // A factor that is chosen, and no branch: where every path asks, it is the same each time.
+        let odds = ratio
+            * match self {
+                Self::Balance => 1.0,
+                Self::Power => ratio,
+            };
         if odds.is_nan() { 0.0 } else { odds.min(MAX_ODDS) }
     }
 

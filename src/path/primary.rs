@@ -2,9 +2,12 @@
 //! Csonka 2002).
 //!
 //! Coordinates are integers that stand for u in [0, 1), see [`crate::chain::Kernel`]. Those of the film are chain columns;
-//! those of the vertex at depth d of chain c have number (d − 1) · capacity + c in two tables of the same columns: one for
-//! current states, one for proposals. Where a path ended, its coordinates end: deeper ones are uniform whatever the
-//! state, so they are drawn afresh when a proposal gets there.
+//! those of the vertex at depth d of subpath p have number (d − first) · capacity + p in two tables of the same columns: one
+//! for current states, one for proposals. `first` is 1 where nothing but vertices that scatter needs coordinates, and 0 where
+//! subpaths start by them: at a lens with an aperture, or at a light
+//! ([`TilePlace::coordinate`](crate::systems::tile::TilePlace::coordinate)). Where a path ended, its coordinates end: deeper
+//! ones are uniform whatever the state, so they are drawn afresh when a proposal gets there. The two
+//! subpaths of a chain end each at a depth of their own.
 
 use super::draws::{CoordinateSet, VertexCoordinates};
 use crate::columns;
@@ -32,21 +35,22 @@ columns! {
     pub PrimaryFilm: [u64; 2];
     /// Where the proposal starts.
     pub ProposedFilm: [u64; 2];
-    /// The depth of the last vertex that has primary coordinates in the current state.
+    /// The depth of the last vertex of a subpath that has primary coordinates in the current state.
     pub PrimaryDepth: u32;
-    /// The depth of the last vertex that has primary coordinates in the proposal.
+    /// The depth of the last vertex of a subpath that has primary coordinates in the proposal.
     pub ProposedDepth: u32;
-    /// Chooses a light for the vertex, in units of 2⁻⁶⁴.
+    /// Chooses a light for the vertex, or for a subpath to start at, in units of 2⁻⁶⁴.
     pub PrimaryChoice: u64;
     /// Chooses a point on the light, in units of 2⁻³².
     pub PrimaryLight: [u32; 2];
-    /// Chooses where the vertex scatters to, in units of 2⁻³².
+    /// Chooses where the vertex scatters to, or light is sent from where a subpath starts, or the point of the lens, in units
+    /// of 2⁻³².
     pub PrimaryScatter: [u32; 2];
     /// Plays roulette after the vertex, in units of 2⁻³².
     pub PrimaryRoulette: u32;
     /// Chooses between lobes at the vertex, in units of 2⁻³².
     pub PrimaryLobe: u32;
-    /// Chains whose new vertex needs primary coordinates.
+    /// Subpaths whose new vertex needs primary coordinates.
     pub DrawList: u32;
 }
 

@@ -123,16 +123,16 @@ impl Scatterer {
         offset_origin(self.position, self.normal, self.offset, direction)
     }
 
-    /// Samples a light for this point. `None` if no light can reach it that way.
+    /// Samples a light for this point; weights are made as `heuristic` says. `None` if no light can reach it that way.
     #[inline(always)]
     #[must_use]
-    pub fn connect(&self, scene: &Scene, draw: LightDraw) -> Option<Connection> {
+    pub fn connect(&self, scene: &Scene, draw: LightDraw, heuristic: Heuristic) -> Option<Connection> {
         let light = scene.lights.sample(self.position, draw.choice, draw.point)?;
         let scattering = self.evaluate(scene, light.direction, Transport::Radiance)?;
         let weight = if light.discrete {
             1.0
         } else {
-            Heuristic::Power.share(light.density, scattering.density)
+            heuristic.share(light.density, scattering.density)
         };
         Some(Connection {
             value: scattering.value * light.radiance * (weight / light.density),

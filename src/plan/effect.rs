@@ -200,7 +200,7 @@ fn materials(scene: &Scene, wanted: impl Fn(MaterialKind) -> bool) -> Vec<&str> 
 }
 
 /// A few names, and how many more there are.
-fn list(names: &[&str]) -> String {
+pub(super) fn list(names: &[&str]) -> String {
     const SHOWN: usize = 4;
     let shown = names.iter().take(SHOWN).copied().collect::<Vec<_>>().join(", ");
     if names.len() > SHOWN {

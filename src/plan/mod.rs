@@ -6,6 +6,7 @@
 mod bidirectional;
 mod chains;
 mod effect;
+mod missing;
 mod mutation;
 mod path_tracing;
 mod pssmlt;
@@ -19,6 +20,7 @@ mod tile;
 
 pub use chains::{ChainCounts, ChainPlanError, ChainSettings, StateSystems, chain_tile, choose_mutations};
 pub use effect::{Effect, EffectPlan};
+pub use missing::Missing;
 pub use mutation::{
     AnyMutation, MAX_MUTATIONS, MovesVertices, Mutation, MutationPlan, Registered, Registry, StateSpace,
 };
@@ -80,6 +82,8 @@ pub struct Plan {
     pub technique: Technique,
     /// Every effect, on or off.
     pub effects: Vec<EffectPlan>,
+    /// Light that the technique cannot find in this scene.
+    pub missing: Vec<Missing>,
     /// What every tile's world is built from.
     pub tile: TilePlan,
     /// The chains, for techniques that run some.
@@ -150,7 +154,7 @@ impl Plan {
         let effects = effect::effects(scene);
         let mut chains = None;
         let mut strategies = None;
-        let tile = match technique {
+        let mut tile = match technique {
             Technique::Pt => TilePlan::new(
                 path_tracing::systems(scene, &effects),
                 path_tracing::tables(scene, &effects),
@@ -192,6 +196,7 @@ impl Plan {
                 tile
             }
         };
+        tile.heuristic = options.heuristic;
         let (width, height) = (scene.width, scene.height);
         let splat_films = if chains.is_none() && strategies.is_some() {
             SPLAT_FILMS
@@ -206,6 +211,7 @@ impl Plan {
         };
         Ok(Self {
             technique,
+            missing: missing::missing(scene, technique),
             effects,
             tile,
             chains,

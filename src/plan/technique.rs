@@ -11,8 +11,12 @@ pub enum Technique {
     Pt,
     /// The same estimator traced depth first, one path after another: the oracle of the staged one, and its baseline.
     PtReference,
-    /// Light tracing (Dutré, Lafortune and Willems 1993): paths from lights, seen by the lens at each of their vertices. It
-    /// does not see what the lens sees by way of mirrors or smooth glass alone.
+    /// Light tracing (Dutré, Lafortune and Willems 1993): paths from lights, seen by the lens at each of their vertices.
+    ///
+    /// Good at caustics on matt surfaces. It cannot find what the lens sees by way of a vertex that scatters into a single
+    /// direction: what stands in a mirror, behind smooth glass or an interface of index 1.00001, or is mirrored in a smooth
+    /// coat, is missing from its picture; so is light from infinity that the lens sees directly. Plans say what that is in
+    /// a scene ([`Missing`](super::Missing)). Shapes that emit are seen. `bdpt` and `pt` find all of it.
     Lt,
     /// Bidirectional path tracing (Veach and Guibas 1994; Lafortune and Willems 1993): a subpath from the camera and one from
     /// a light, joined in every way.
@@ -94,6 +98,12 @@ impl Technique {
 
     /// Those whose samples are independent, and each of one pixel.
     pub const INDEPENDENT: [Self; 2] = [Self::Pt, Self::PtReference];
+
+    /// Whether its samples are states of Markov chains, and not independent.
+    #[must_use]
+    pub const fn has_chains(self) -> bool {
+        matches!(self, Self::Pssmlt | Self::PssmltReference)
+    }
 
     /// The name on the command line and in files.
     #[must_use]

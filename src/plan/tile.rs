@@ -3,6 +3,7 @@
 
 use super::system::SystemPlan;
 use super::table::{Extent, TableId, TablePlan};
+use crate::path::mis::Heuristic;
 use crate::table::LANES;
 
 /// The subpaths of a chain.
@@ -41,6 +42,8 @@ pub struct TilePlan {
     pub reason: String,
     /// The subpaths of each of its chains: every table has room for all of them.
     pub subpaths: Subpaths,
+    /// How weights are made of densities where light that is met is weighed against sampling it.
+    pub heuristic: Heuristic,
 }
 
 impl TilePlan {
@@ -73,6 +76,7 @@ impl TilePlan {
             size: 0,
             reason: String::new(),
             subpaths,
+            heuristic: Heuristic::default(),
         };
         tile.resize(size, reason);
         tile

@@ -1,5 +1,6 @@
 //! Rendering: tiles built from a plan, dealt to threads, burst by burst.
 
+mod blank;
 mod built;
 mod bytes;
 mod chain_run;
@@ -17,6 +18,7 @@ mod saved_tile;
 mod splats;
 mod tile_world;
 
+pub use blank::blank;
 pub use built::{Built, BuiltColumn, BuiltTable, short};
 pub use chain_run::ChainRun;
 pub use chains::ChainRender;

@@ -63,6 +63,7 @@ fn identity(scene: &Scene, plan: &Plan, seed: u64) -> Vec<(String, String)> {
         ("the film".to_owned(), format!("{} x {}", scene.width, scene.height)),
         ("max_depth".to_owned(), scene.max_depth.to_string()),
     ];
+    identity.push(("the heuristic".to_owned(), plan.tile.heuristic.to_string()));
     if let Some(strategies) = &plan.strategies {
         identity.push(("the strategies".to_owned(), format!("{strategies:?}")));
     }

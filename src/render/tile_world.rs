@@ -38,6 +38,7 @@ impl TileWorld {
             capacity: plan.capacity(),
             lights_from: plan.lights_from(),
             first_coordinate: plan.first_coordinate(),
+            heuristic: plan.heuristic,
             step: 0,
         };
         world.insert_resource(place);

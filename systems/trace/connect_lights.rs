@@ -63,7 +63,8 @@ impl Run<'_> {
         for entry in 0..count {
             let chain = self.list.at(entry) as usize;
             let (depth, vertex, scatterer) = self.scatterers.at(plain, self.place, chain);
-            let Some(connection) = scatterer.connect(self.scene, self.draws.light(chain, depth)) else {
+            let Some(connection) = scatterer.connect(self.scene, self.draws.light(chain, depth), self.place.heuristic)
+            else {
                 continue;
             };
             self.connections.put(vertex, connection.value);

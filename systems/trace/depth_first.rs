@@ -34,6 +34,7 @@ pub struct OneRay<'w, 's> {
 /// The columns of [`OneRay`] as slices, with the scene they are traced against.
 pub(in super::super) struct Tracer<'a> {
     scene: &'a Scene,
+    heuristic: Heuristic,
     counters: &'a mut Counters,
     origin: &'a mut [RayOrigin],
     direction: &'a mut [RayDirection],
@@ -56,7 +57,7 @@ pub fn trace_depth_first(
     mut ray: OneRay,
 ) {
     let (keys, pixels, contributions) = (keys.rows(), pixels.rows(), contributions.rows());
-    let mut tracer = Tracer::new(&scene.0, &mut counters, &mut ray);
+    let mut tracer = Tracer::new(&scene.0, place.heuristic, &mut counters, &mut ray);
     for chain in 0..place.chains as usize {
         let key = place.key(chain, keys.at(chain));
         let film = film_position(&scene.0, key, pixels.at(chain));
@@ -65,10 +66,16 @@ pub fn trace_depth_first(
 }
 
 impl<'a> Tracer<'a> {
-    /// The tracer over `ray`'s columns.
-    pub(in super::super) fn new(scene: &'a Scene, counters: &'a mut Counters, ray: &'a mut OneRay<'_, '_>) -> Self {
+    /// The tracer over `ray`'s columns, whose weights are made as `heuristic` says.
+    pub(in super::super) fn new(
+        scene: &'a Scene,
+        heuristic: Heuristic,
+        counters: &'a mut Counters,
+        ray: &'a mut OneRay<'_, '_>,
+    ) -> Self {
         Self {
             scene,
+            heuristic,
             counters,
             origin: ray.origin.rows(),
             direction: ray.direction.rows(),
@@ -101,7 +108,7 @@ impl<'a> Tracer<'a> {
                 if scene.lights.has_infinite() {
                     self.counters.vertices += 1;
                     let before = connectable(kind).then_some((position, density));
-                    let met = throughput * met_at_infinity(scene, direction, before);
+                    let met = throughput * met_at_infinity(scene, direction, before, self.heuristic);
                     radiance += met;
                     brightest.see(met, Rgb::BLACK, depth, false);
                 }
@@ -131,7 +138,7 @@ impl<'a> Tracer<'a> {
             let model = scene.materials.kind(material);
             let mut connected = Rgb::BLACK;
             if !model.is_discrete()
-                && let Some(connection) = scatterer.connect(scene, draws.light(depth))
+                && let Some(connection) = scatterer.connect(scene, draws.light(depth), self.heuristic)
             {
                 let passed = self.transmittance(connection.origin, connection.target);
                 connected = throughput * (connection.value * passed);
@@ -183,7 +190,7 @@ impl<'a> Tracer<'a> {
             return emitted;
         }
         let sampled = lights.density(point.light, previous, point.position, point.geometric_normal);
-        emitted * Heuristic::Power.share(density, sampled)
+        emitted * self.heuristic.share(density, sampled)
     }
 
     fn closest(&mut self, origin: Vec3, direction: Vec3) -> Option<(Hit, SurfacePoint)> {

@@ -195,7 +195,10 @@ impl Run<'_> {
                 normals.put(vertex, -direction);
                 offsets.put(vertex, 0.0);
                 if !emissions.is_empty() {
-                    emissions.put(vertex, met_at_infinity(scene, direction, sampled_before));
+                    emissions.put(
+                        vertex,
+                        met_at_infinity(scene, direction, sampled_before, place.heuristic),
+                    );
                 }
                 if !plain && let Some(ends) = &mut ends {
                     let arrival = Arrival {
@@ -227,7 +230,7 @@ impl Run<'_> {
                         let sampled = scene
                             .lights
                             .density(point.light, from, point.position, point.geometric_normal);
-                        emission = emission * Heuristic::Power.share(densities.at(previous), sampled);
+                        emission = emission * place.heuristic.share(densities.at(previous), sampled);
                     }
                 }
                 emissions.put(vertex, emission);
@@ -290,14 +293,19 @@ impl Run<'_> {
 
 /// Radiance from all lights at infinity along `-direction`, each weighted against sampling it from the vertex before, which
 /// has this position and drew the direction with this density.
-pub(super) fn met_at_infinity(scene: &Scene, direction: Vec3, sampled_before: Option<(Vec3, f32)>) -> Rgb {
+pub(super) fn met_at_infinity(
+    scene: &Scene,
+    direction: Vec3,
+    sampled_before: Option<(Vec3, f32)>,
+    heuristic: Heuristic,
+) -> Rgb {
     let (lights, travel) = (&scene.lights, -direction);
     let mut sum = Rgb::BLACK;
     for light in lights.infinite() {
         let mut emission = lights.radiance(light, travel, travel);
         if let Some((from, density)) = sampled_before {
             let sampled = lights.density(light, from, from, travel);
-            emission = emission * Heuristic::Power.share(density, sampled);
+            emission = emission * heuristic.share(density, sampled);
         }
         sum += emission;
     }

@@ -155,7 +155,7 @@ pub fn mutate_depth_first(
             depth: 0,
             here: VertexCoordinates::default(),
         };
-        let (light, class) = Tracer::new(scene, counters, &mut ray).trace(position, &mut draws);
+        let (light, class) = Tracer::new(scene, place.heuristic, counters, &mut ray).trace(position, &mut draws);
         let depth = draws.depth;
         let block = blocks.0.block_of(pixel).unwrap_or(0) as u32;
         let proposal = Proposal {

@@ -126,8 +126,7 @@ impl WholePath<'_> {
         let end = &self.nodes[count - 1];
         let before = count - 2;
         let towards = self.direction(count - 1, before);
-        let emission =
-            lights.emission_densities(self.light, end.surface.position, end.surface.normal, towards.as_vec3());
+        let emission = lights.emission_densities(self.light, end.surface.normal, towards.as_vec3());
         let by_area = self.mistake == Mistake::SampledByArea;
         if s > 1 || t == 1 || lights.is_delta(self.light) || by_area {
             return f64::from(emission.position);
@@ -181,7 +180,7 @@ impl WholePath<'_> {
             } else {
                 scene
                     .lights
-                    .emission_densities(self.light, surface.position, surface.normal, outgoing)
+                    .emission_densities(self.light, surface.normal, outgoing)
                     .direction
             });
         };

@@ -28,6 +28,14 @@ fn what_cannot_be_checked_is_said() {
         (&["larg_step"][..], "did you mean `large_step`?"),
         (&["--mutation", "small_step:larges=0.1"], "did you mean `largest`?"),
         (&["--scene", "nowhere.ron"], "nowhere.ron"),
+        (
+            &["small_step", "--mutation", "small_step:weight=0.5"],
+            "a weight has no effect",
+        ),
+        (
+            &["identity", "--mutation", "small_step:largest=0.1"],
+            "no effect on the check of `identity`",
+        ),
     ] {
         let output = check(arguments);
         let error = String::from_utf8_lossy(&output.stderr).replace("\n  │", "");

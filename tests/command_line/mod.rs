@@ -1,6 +1,8 @@
 //! The program as a user runs it: arguments, files, messages, exit codes, interruption.
 
+mod black;
 mod chains;
+mod options;
 
 use chainlight::film::read_exr;
 use serde_json::Value;

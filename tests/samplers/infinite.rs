@@ -60,7 +60,7 @@ fn directions_to_wide_lights_follow_the_stated_density() {
         // Rays that the light sends: the same directions, the other way.
         let counts = grid.count(sent(case, &table).map(|ray| height_and_angle(-ray.direction)));
         nearly_all(&counts, name);
-        let stated = |to: Vec3| f64::from(table.emission_densities(0, Vec3::ZERO, -to, -to).position);
+        let stated = |to: Vec3| f64::from(table.emission_densities(0, -to, -to).position);
         FAMILY.follows(
             &format!("{name}, sent"),
             &counts,
@@ -132,7 +132,7 @@ fn samples_state_the_density_and_radiance_of_their_direction() {
             assert_eq!(ray.normal, ray.direction, "{name}");
             assert_eq!(
                 ray.densities,
-                table.emission_densities(0, ray.position, ray.normal, ray.direction),
+                table.emission_densities(0, ray.normal, ray.direction),
                 "{name}"
             );
             let product = f64::from(ray.densities.position) * f64::from(ray.densities.direction);
@@ -184,7 +184,7 @@ fn on_disc(ray: &Emitted) -> [f64; 2] {
 fn light_from_infinity_fills_a_disc_that_hides_the_scene() {
     let grid = Grid::around([0.0, 1.0]);
     let table = alone(parallel());
-    let stated = table.emission_densities(0, Vec3::ZERO, Vec3::X, Vec3::X);
+    let stated = table.emission_densities(0, Vec3::X, Vec3::X);
     assert_eq!(stated.position, 1.0);
     let area = f64::from(stated.direction) * f64::from(SCENE.radius) * f64::from(SCENE.radius);
     let probabilities = grid.simpson(2, |_, _| 0.5 * area);

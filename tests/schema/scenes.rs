@@ -46,6 +46,22 @@ fn every_shipped_scene_follows_the_schema() {
     }
 }
 
+/// Nothing but what the showcase, a template, has in store for other subjects.
+#[test]
+fn every_shipped_scene_is_read_without_a_warning() {
+    for path in shipped() {
+        let source = read_scene(&path).unwrap_or_else(|error| panic!("{}", error.plain()));
+        let flattened = flatten(&source).unwrap_or_else(|error| panic!("{}", error.plain()));
+        let warnings = flattened.warnings.iter().map(|warning| warning.plain());
+        let in_store = ["no shape uses the material", "no material of a shape uses the texture"];
+        let is_template = path.ends_with("materials/showcase.ron");
+        let others: Vec<String> = warnings
+            .filter(|warning| !(is_template && in_store.iter().any(|words| warning.contains(words))))
+            .collect();
+        assert!(others.is_empty(), "{}: {others:?}", path.display());
+    }
+}
+
 /// The JSON scene that the readme shows.
 fn readme_scene() -> Value {
     let readme = include_str!("../../README.md");

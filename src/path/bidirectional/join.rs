@@ -116,7 +116,7 @@ impl Join<'_> {
         }
         let weight = self.strategies.weight(|heuristic| {
             let (here, before) = (x.site(), from.site());
-            let emission = lights.emission_densities(light, x.surface.position, x.surface.normal, towards);
+            let emission = lights.emission_densities(light, x.surface.normal, towards);
             if t == 2 {
                 // The lens samples no light; it sees those that light subpaths start at, if they are somewhere.
                 if here.is_infinite() {
@@ -149,7 +149,7 @@ impl Join<'_> {
                 position: sample.position,
                 normal: sample.normal,
             };
-            let emission = lights.emission_densities(sample.light, sample.position, sample.normal, -sample.direction);
+            let emission = lights.emission_densities(sample.light, sample.normal, -sample.direction);
             let (drawn, met) = if sample.discrete {
                 (f64::from(sample.density), 0.0)
             } else {
@@ -220,7 +220,7 @@ impl Join<'_> {
             if lights.is_delta(y.light) {
                 return None;
             }
-            let emission = lights.emission_densities(y.light, y.surface.position, y.surface.normal, towards);
+            let emission = lights.emission_densities(y.light, y.surface.normal, towards);
             let cosine = y.surface.normal.dot(towards).abs();
             let radiance = lights.radiance(y.light, y.surface.normal, towards) * (cosine / emission.position);
             let odds = |heuristic: Heuristic| heuristic.odds(arriving / f64::from(emission.position));

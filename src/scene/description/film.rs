@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 pub const MAX_FILM_SIDE: u32 = 65_536;
 /// The most pixels of a film.
 pub const MAX_FILM_PIXELS: u64 = 1 << 28;
+/// The darkest and the brightest exposure of a PNG beside its automatic one, in stops.
+pub const EXPOSURE: [f32; 2] = [-32.0, 32.0];
 
 /// The film: its size in pixels and its reconstruction filter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -23,6 +25,11 @@ pub struct FilmDescription {
     /// The reconstruction filter. Default `Box(radius: 0.5)`: every sample counts in its own pixel alone.
     #[serde(default)]
     pub filter: FilterDescription,
+    /// By how many stops the PNG is shown brighter than its automatic exposure, which takes the geometric mean of what is lit
+    /// to middle grey; in [-32, 32], darker below 0. The EXR file has the light itself. Default 0.
+    #[serde(default)]
+    #[schemars(with = "quantity::Exposure")]
+    pub exposure: f32,
 }
 
 /// A separable reconstruction filter, zero outside a square. Radii are in pixels, in [0.5, 16]: half the side of the

@@ -15,7 +15,7 @@ mod unique_map;
 
 pub use camera::{CameraDescription, FovAxis};
 pub use color::ColorDescription;
-pub use film::{FilmDescription, FilterDescription, MAX_FILM_PIXELS, MAX_FILM_SIDE};
+pub use film::{EXPOSURE, FilmDescription, FilterDescription, MAX_FILM_PIXELS, MAX_FILM_SIDE};
 pub use light::LightDescription;
 pub use material::MaterialDescription;
 pub use settings::{DEFAULT_MAX_DEPTH, MAX_DEPTH_LIMIT, SettingsDescription};

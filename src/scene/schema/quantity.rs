@@ -5,7 +5,7 @@
 
 use crate::light::TURBIDITY;
 use crate::material::metals::METALS;
-use crate::scene::description::{FORMAT_VERSION, MAX_DEPTH_LIMIT, MAX_FILM_SIDE};
+use crate::scene::description::{EXPOSURE, FORMAT_VERSION, MAX_DEPTH_LIMIT, MAX_FILM_SIDE};
 use crate::scene::limits::{
     FILTER_RADIUS, FILTER_SIGMA, FOV_MARGIN, IOR, MAX_CONDUCTOR_INDEX, MAX_CUTOFF, MAX_RADIANCE, MAX_ROTATION,
     MAX_TEXTURE_SCALE, MAX_TURN, MIN_CUTOFF, MIN_HEIGHTS, MIN_LENS_LENGTH, SEGMENTS,
@@ -110,6 +110,8 @@ quantities! {
     FilterRadius = number(FILTER_RADIUS, "pixels");
     /// The standard deviation of a reconstruction filter.
     FilterSigma = number(FILTER_SIGMA, "pixels");
+    /// By how much a picture is shown brighter.
+    Exposure = number(EXPOSURE, "stops");
     /// A number of edges.
     MaxDepth = whole([1, MAX_DEPTH_LIMIT], "edges");
     /// The version of the format.

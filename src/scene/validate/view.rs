@@ -2,7 +2,7 @@
 
 use crate::scene::at::{At, wide};
 use crate::scene::description::{
-    CameraDescription, FilmDescription, FilterDescription, MAX_FILM_PIXELS, MAX_FILM_SIDE,
+    CameraDescription, EXPOSURE, FilmDescription, FilterDescription, MAX_FILM_PIXELS, MAX_FILM_SIDE,
 };
 use crate::scene::error::SceneError;
 use crate::scene::limits::{FILTER_RADIUS, FILTER_SIGMA, FOV_MARGIN, MIN_LENS_LENGTH};
@@ -115,6 +115,9 @@ pub(super) fn film(at: &At, film: &FilmDescription) -> Result<(), SceneError> {
         let message = format!("a film has at most {MAX_FILM_PIXELS} pixels, this one {pixels}");
         return Err(at.error(message, "render a smaller picture, or parts of it"));
     }
+    let [least, most] = EXPOSURE;
+    at.key("exposure")
+        .within(film.exposure, least, most, "in stops: each doubles what is shown")?;
     let at = at.key("filter");
     let (at, radius) = match film.filter {
         FilterDescription::Box { radius } => (at.variant("Box"), radius),

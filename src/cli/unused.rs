@@ -1,0 +1,102 @@
+//! Options that would change nothing with the technique they are given for: refused, since whoever gives one expects it to.
+
+use super::load::SceneArgs;
+use crate::path::mis::Heuristic;
+use crate::plan::{Base, Registry, StateSpace, Technique};
+use miette::{Result, miette};
+
+/// Refuses options that have no effect on a render with `technique` of paths of at most `max_depth` edges. `mutations` are
+/// those there are.
+///
+/// # Errors
+/// The first such option: why it has no effect, and what to do.
+pub fn refuse(args: &SceneArgs, technique: Technique, max_depth: u32, mutations: &Registry) -> Result<()> {
+    refuse_of_chains(args, technique, mutations)?;
+    let strategies = &args.strategies;
+    if let Some(base) = strategies.base
+        && !technique.has_chains()
+    {
+        return Err(miette!(
+            help = format!("leave --base out; for chains over {base} add --technique pssmlt"),
+            "--base {base} has no effect with {technique}: it says what chains run over, and {technique} has none"
+        ));
+    }
+    let both_ends = technique == Technique::Bdpt || (technique.has_chains() && strategies.base == Some(Base::Bdpt));
+    if let Some((s, t)) = strategies.strategy {
+        if !both_ends {
+            let own = match technique {
+                Technique::Lt => "joins paths to the lens alone (t = 1)",
+                Technique::Pssmlt | Technique::PssmltReference => "runs over pt here, which joins no subpaths",
+                _ => "joins no subpaths",
+            };
+            let instead = if technique == Technique::Pssmlt {
+                "--base bdpt"
+            } else {
+                "--technique bdpt"
+            };
+            return Err(miette!(
+                help = format!("leave --strategy out, or add {instead}"),
+                "--strategy {s},{t} has no effect with {technique}: {technique} {own}"
+            ));
+        }
+        let edges = u64::from(s) + u64::from(t) - 1;
+        if edges > u64::from(max_depth) {
+            let most = u64::from(max_depth) + 1;
+            return Err(miette!(
+                help = format!("take S,T whose sum is at most {most}, or raise --max-depth to {edges}"),
+                "--strategy {s},{t} finds nothing: its paths have S + T - 1 = {edges} edges, and max_depth is {max_depth}"
+            ));
+        }
+    }
+    if let Some(heuristic) = strategies.heuristic {
+        refuse_heuristic(heuristic, technique, strategies.strategy)?;
+    }
+    Ok(())
+}
+
+/// Refuses a heuristic where no weights are made of it.
+fn refuse_heuristic(heuristic: Heuristic, technique: Technique, strategy: Option<(u32, u32)>) -> Result<()> {
+    if technique == Technique::Lt {
+        return Err(miette!(
+            help = "leave --heuristic out; pt, bdpt and pssmlt weigh their ways to find a path by it",
+            "--heuristic {heuristic} has no effect with lt: every path has one way to be found, and counts fully"
+        ));
+    }
+    if let Some((s, t)) = strategy {
+        return Err(miette!(
+            help = "leave --heuristic or --strategy out",
+            "--heuristic {heuristic} has no effect with --strategy {s},{t}: the only strategy has weight one"
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses what is said of chains where there are none, and of mutations that no chain can try.
+fn refuse_of_chains(args: &SceneArgs, technique: Technique, mutations: &Registry) -> Result<()> {
+    if technique.has_chains() {
+        for text in &args.mutations.mutation {
+            let name = text.split(':').next().unwrap_or_default().trim();
+            let space = mutations
+                .get(name)
+                .map_or(StateSpace::PRIMARY, |mutation| mutation.space());
+            let (StateSpace(own), StateSpace(here)) = (space, StateSpace::PRIMARY);
+            if own != here {
+                return Err(miette!(
+                    help = format!("leave it out, or render with a technique whose states are {own}"),
+                    "--mutation {text} has no effect with {technique}: `{name}` moves {own} states, and those of \
+                     {technique} are {here}"
+                ));
+            }
+        }
+        return Ok(());
+    }
+    let of_chains = args.chains.given();
+    let given = args.mutations.mutation.first().map(|text| format!("--mutation {text}"));
+    match of_chains.or(given) {
+        Some(option) => Err(miette!(
+            help = "leave it out, or render with chains: --technique pssmlt",
+            "{option} has no effect with {technique}: its samples are independent, it has no chains"
+        )),
+        None => Ok(()),
+    }
+}
