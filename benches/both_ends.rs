@@ -11,6 +11,7 @@ mod support;
 use chainlight::plan::{Base, Place, Plan, PlanOptions, Technique};
 use chainlight::render::{Rendering, start};
 use chainlight::scene::Scene;
+use chainlight::systems::list::{JOIN_LOOP, TRACE_LOOP};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
@@ -110,7 +111,9 @@ fn table(name: &str, scene: &Arc<Scene>, systems: bool) {
     {
         println!("  {}:", case.name);
         let samples = case.render.counters().decisions as f64;
-        for cost in case.render.costs() {
+        // The loops' own time is that of the systems in them.
+        let costs = case.render.costs().into_iter();
+        for cost in costs.filter(|cost| ![TRACE_LOOP, JOIN_LOOP].contains(&cost.spec)) {
             let indent = if matches!(cost.spec.place(), Place::Stage(_)) {
                 ""
             } else {
