@@ -12,23 +12,27 @@ use std::collections::BTreeMap;
 const FRACTION_BITS: u32 = 40;
 /// The value of one step: a power of two, so that multiplying by it is exact.
 const STEP: f64 = 1.0 / (1_u64 << FRACTION_BITS) as f64;
+/// The largest magnitude of a channel that is added to the table of sums; larger ones go to the spilled sums at once.
+const NARROW: f32 = (1 << 20) as f32;
 /// The largest magnitude of a channel that is added as it is.
-const LIMIT: f32 = (1 << 20) as f32;
+const LIMIT: f32 = (1_u64 << 50) as f32;
 /// A sum whose magnitude passes this moves to the spilled sums. One more splat is at most 2⁶⁰, so no addition overflows.
 pub(super) const SPILL_ABOVE: u64 = 1 << 62;
 
 /// The accumulator of one group of chains: exact sums in fixed point, the same for any order of additions.
 ///
-/// A splat is colour over target function, times the state's weight: of order one, however bright the scene is. What
-/// brings it to radiance is one factor for the whole group ([`super::develop_groups`]).
+/// Splats are of order one, however bright the scene is: of chains they are colour over target function, times the state's
+/// weight; of independent samples light over what a few samples found in the mean. What brings them to radiance is one factor
+/// for the whole film ([`super::develop_groups`]).
 ///
 /// # Range and resolution
 ///
 /// - A splat's channel is rounded to the nearest multiple of 2⁻⁴⁰, ties to even; of values from 2⁻¹⁷ up no bit is lost. One
 ///   that rounds to nothing is counted ([`Tally::vanished`]).
-/// - A channel beyond ± 2²⁰ is brought down to that, and counted ([`Tally::saturated`]).
+/// - A channel beyond ± 2⁵⁰ is brought down to that, and counted ([`Tally::saturated`]).
 /// - Sums are exact for any number of splats: one that passes 2⁶² steps (2²², radiance being one) moves into a sparse map of
-///   128-bit sums, and starts again from zero. Those hold 2⁶⁶ splats of the largest value.
+///   128-bit sums, and starts again from zero; splats with a channel beyond ± 2²⁰ go there at once. Those hold 2³⁴ splats of
+///   the largest value.
 ///
 /// Films are equal where their sizes, their sums and their tallies are, however the sums came about.
 ///
@@ -116,6 +120,10 @@ impl GroupFilm {
                 continue;
             };
             let value = splat.value.to_array();
+            if value.iter().any(|v| v.abs() > NARROW) {
+                add_wide(&mut self.spilled, splat.pixel, value, &mut tally);
+                continue;
+            }
             let steps = value.map(steps);
             for (sum, steps) in sum.iter_mut().zip(steps) {
                 *sum += steps;
@@ -123,7 +131,6 @@ impl GroupFilm {
             if sum.iter().any(|s| s.unsigned_abs() > SPILL_ABOVE) {
                 spill(&mut self.spilled, splat.pixel, sum);
             }
-            tally.saturated += u64::from(value.iter().any(|v| v.abs() > LIMIT));
             tally.vanished += u64::from(steps.iter().zip(value).any(|(&s, v)| s == 0 && v != 0.0));
         }
         self.tally.add(&tally);
@@ -206,15 +213,17 @@ impl PartialEq for GroupFilm {
 
 impl Eq for GroupFilm {}
 
-/// A finite value, brought into the limits, in steps of 2⁻⁴⁰, rounded to nearest, ties to even.
+/// Steps of 2⁻⁴⁰ in one.
+const STEPS_OF_ONE: f64 = (1_u64 << FRACTION_BITS) as f64;
+
+/// A value of at most [`NARROW`] in steps of 2⁻⁴⁰, rounded to nearest, ties to even.
 #[inline]
 fn steps(value: f32) -> i64 {
-    const STEPS_OF_ONE: f64 = (1_u64 << FRACTION_BITS) as f64;
     /// An `f64` of about this size has no room for a fraction, so adding this rounds, and as wanted. (The library's
     /// function is a call where the processor is not known to have an instruction for it.)
     const WHOLE: f64 = (3_u64 << 51) as f64;
     // Exact: a power of two.
-    let scaled = f64::from(value.clamp(-LIMIT, LIMIT)) * STEPS_OF_ONE;
+    let scaled = f64::from(value) * STEPS_OF_ONE;
     // From 2²³ on, an f32 has no fraction by itself; from 2⁵¹ on, it would not fit beside the constant.
     let rounded = if scaled.abs() < (1 << 30) as f64 {
         (scaled + WHOLE) - WHOLE
@@ -227,6 +236,28 @@ fn steps(value: f32) -> i64 {
 /// Steps to the value they stand for, rounded once.
 pub(super) fn to_f64(steps: i128) -> f64 {
     steps as f64 * STEP
+}
+
+/// A finite value, brought into the limits, in steps of 2⁻⁴⁰; those beyond [`NARROW`] are whole numbers of them.
+fn wide_steps(value: f32) -> i128 {
+    if value.abs() > NARROW {
+        (f64::from(value.clamp(-LIMIT, LIMIT)) * STEPS_OF_ONE) as i128
+    } else {
+        i128::from(steps(value))
+    }
+}
+
+/// Adds a splat to the sums beside the film's table.
+#[cold]
+#[inline(never)]
+fn add_wide(spilled: &mut BTreeMap<u32, [i128; 3]>, pixel: u32, value: [f32; 3], tally: &mut Tally) {
+    let steps = value.map(wide_steps);
+    let totals = spilled.entry(pixel).or_default();
+    for (total, steps) in totals.iter_mut().zip(steps) {
+        *total = total.saturating_add(steps);
+    }
+    tally.saturated += u64::from(value.iter().any(|v| v.abs() > LIMIT));
+    tally.vanished += u64::from(steps.iter().zip(value).any(|(&s, v)| s == 0 && v != 0.0));
 }
 
 /// Moves a pixel's sums out of the film's table; a film whose values are of order one never comes here.

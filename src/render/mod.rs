@@ -11,6 +11,7 @@ mod driver;
 mod findings;
 mod group;
 mod lone_chain;
+mod pilot;
 mod rendering;
 mod samples;
 mod saved;

@@ -5,6 +5,7 @@
 //! has n of the N steps counts by n/N.
 
 use super::RenderError;
+use super::pilot;
 use super::rendering::{Rendering, error_blocks};
 use super::samples::Samples;
 use super::tile_world::{TileWorld, lock};
@@ -15,6 +16,7 @@ use crate::stats::error::PictureError;
 use crate::stats::group_means::GroupMeans;
 use crate::systems::SystemCost;
 use crate::systems::tile::{Counters, SceneRef, SplatFilms, StrategiesRef};
+use bevy_ecs::world::World;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
@@ -48,10 +50,19 @@ impl SplatRender {
             .map(film)
             .collect::<Result<Vec<_>, FilmError>>()?
             .into();
-        let unit = unit_of(scene.lights.max_radiance());
-        let samples = Samples::new(&plan.tile, scene.pixel_count(), seed, threads, |world| {
+        let insert = |world: &mut World| {
             world.insert_resource(SceneRef(Arc::clone(&scene)));
             world.insert_resource(StrategiesRef(strategies));
+        };
+        let unit = pilot::unit(
+            &plan.tile,
+            scene.pixel_count(),
+            seed,
+            scene.lights.max_radiance(),
+            insert,
+        )?;
+        let samples = Samples::new(&plan.tile, scene.pixel_count(), seed, threads, |world| {
+            insert(world);
             world.insert_resource(SplatFilms {
                 films: Arc::clone(&films),
                 scale: (1.0 / unit) as f32,
@@ -114,15 +125,6 @@ fn combine(values: &mut [f64], scales: &[(f64, f64)]) {
     let mean: f64 = values.iter().zip(scales).map(|(value, (_, share))| value * share).sum();
     for (value, (_, share)) in values.iter_mut().zip(scales) {
         *value = mean + (*value - mean) * (films * share);
-    }
-}
-
-/// The power of two next to `radiance`; 1 for a scene without light.
-fn unit_of(radiance: f32) -> f64 {
-    if radiance > 0.0 && radiance.is_finite() {
-        libm::exp2(libm::round(libm::log2(f64::from(radiance))))
-    } else {
-        1.0
     }
 }
 
@@ -212,12 +214,5 @@ mod tests {
         combine(&mut values, &scales);
         let mean = values.iter().sum::<f64>() / 3.0;
         assert!((mean - (0.4 + 0.8 + 1.2)).abs() < 1e-12, "{mean}");
-    }
-
-    #[test]
-    fn units_are_powers_of_two_near_the_brightest_radiance() {
-        for (radiance, unit) in [(1.0, 1.0), (17.0, 16.0), (0.2, 0.25), (0.0, 1.0), (f32::INFINITY, 1.0)] {
-            assert_eq!(unit_of(radiance), unit);
-        }
     }
 }

@@ -80,6 +80,16 @@ impl TileWorld {
         }
     }
 
+    /// All values of column `C` of table `T`, those of rows that are not in use too; none if the plan has no such column.
+    pub fn all<C: Column, T: Component>(&mut self) -> Vec<C::Value> {
+        let mut column = self.world.query_filtered::<&C, With<T>>();
+        let column = column.query(&self.world);
+        let tables = column.contiguous_iter().into_iter().flatten();
+        tables
+            .flat_map(|rows| (0..rows.len() * LANES).map(|i| rows.at(i)))
+            .collect()
+    }
+
     /// The value of number `index` in column `C` of table `T`; none if the plan has no such column, or it is shorter.
     pub fn at<C: Column, T: Component>(&mut self, index: usize) -> Option<C::Value> {
         let mut column = self.world.query_filtered::<&C, With<T>>();

@@ -11,6 +11,7 @@ mod errors;
 mod film;
 mod index_one;
 mod plans;
+mod range;
 mod strategies;
 mod weights;
 

@@ -9,7 +9,7 @@ const KIND: [u8; 8] = *b"cl:group";
 const SUMS: usize = 3;
 /// Words of a pixel whose sums spilled: its index and three wide sums.
 const SPILLED: usize = 7;
-/// The largest total of a channel: 2⁶⁴ splats of the largest value (2⁶⁰ steps). Totals of films below it add safely.
+/// The largest total of a channel: 2³⁴ splats of the largest value (2⁹⁰ steps). Totals of films below it add safely.
 const LARGEST_TOTAL: u128 = 1 << 124;
 
 impl GroupFilm {
@@ -105,7 +105,7 @@ mod tests {
             splat(1, 1e-20, 0.0, 0.0),
         ]);
         for _ in 0..9 {
-            film.add(&[splat(4, 1e9, 0.7, -1e6)]);
+            film.add(&[splat(4, 1e19, 0.7, -1e6)]);
         }
         film
     }
