@@ -93,6 +93,8 @@ impl Mutation for LensStep {
                 SystemPlan::new(DRAW, "and on by the same numbers"),
             ],
             weigh: vec![SystemPlan::new(WEIGH_SUPPORT, "1 over the area of those starts")],
+            // Two coordinates are drawn uniformly.
+            fourth_moment: libm::pow(self.kernel().fourth_moment_of_uniform(), 2.0),
         }))
     }
 }

@@ -8,6 +8,7 @@
 mod acceptance;
 mod booking;
 mod columns;
+mod known;
 mod normalization;
 mod primary;
 mod resample;
@@ -16,6 +17,7 @@ mod state;
 pub use acceptance::{Decision, Reason, metropolis};
 pub use booking::{Booking, decide_with};
 pub use columns::*;
+pub use known::KnownDraws;
 pub use normalization::Normalization;
 pub use primary::{Kernel, KernelError, LEAST_STEP, Steps, to_f32, to_f64};
 pub use resample::{distinct, resample};

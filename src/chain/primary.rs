@@ -153,6 +153,34 @@ impl Kernel {
         2.0 * (largest - smallest)
     }
 
+    /// Of the weights w = 1/(V k) of small steps against coordinates uniform over the support, where V is its length and k
+    /// the kernel's density: the largest, and E[w²]. E[w] is 1. With ρ = s₁/s₂ and l = ln(1/ρ), w = (|d|/s₂) l/(1 − ρ), so
+    /// they are l/(1 − ρ) and l (1 + ρ)/(2 (1 − ρ)).
+    #[must_use]
+    pub fn weights_of_uniform(&self) -> [f64; 2] {
+        let largest = self.largest_weight();
+        [largest, 0.5 * largest * (1.0 + self.ratio())]
+    }
+
+    /// E[w⁴] of those weights: l³ (1 + ρ + ρ² + ρ³)/(4 (1 − ρ)³). Where n coordinates are uniform over their support, the
+    /// weights of proposals have its n-th power.
+    #[must_use]
+    pub fn fourth_moment_of_uniform(&self) -> f64 {
+        let (largest, ratio) = (self.largest_weight(), self.ratio());
+        0.25 * largest * largest * largest * (1.0 + ratio) * (1.0 + ratio * ratio)
+    }
+
+    fn largest_weight(&self) -> f64 {
+        let [smallest, largest] = self.sizes.map(f64::from);
+        let gap = (largest - smallest) / smallest;
+        libm::log1p(gap) * largest / (largest - smallest)
+    }
+
+    fn ratio(&self) -> f64 {
+        let [smallest, largest] = self.sizes.map(f64::from);
+        smallest / largest
+    }
+
     /// The size of a step, from s₁ to s₂, give or take some 10⁻⁶ of itself.
     #[inline]
     fn size(&self, random: u32) -> f32 {

@@ -93,6 +93,30 @@ fn where_no_step_leads_the_density_is_zero() -> Result<(), KernelError> {
     Ok(())
 }
 
+/// Moments of 1/(V k) over small steps: in closed form as by the rule of midpoints.
+#[test]
+fn weights_of_uniform_coordinates_have_the_moments_that_are_said() -> Result<(), KernelError> {
+    for (smallest, largest) in [(LEAST_STEP, LONGEST_STEP), (1.0 / 1024.0, 1.0 / 16.0), (0.25, 0.251)] {
+        let kernel = Kernel::new(smallest, largest)?;
+        let steps = 1 << 16;
+        let mut moments = [0.0; 3];
+        for step in 0..steps {
+            let to = kernel.perturb_wide(0, (2 * step + 1) << 15);
+            let weight = libm::exp(-kernel.log_density_wide(0, to)) / kernel.support_length();
+            for (moment, power) in moments.iter_mut().zip([1.0, 2.0, 4.0]) {
+                *moment += libm::pow(weight, power) / f64::from(steps);
+            }
+        }
+        let expected = [1.0, kernel.weights_of_uniform()[1], kernel.fourth_moment_of_uniform()];
+        for (moment, expected) in moments.into_iter().zip(expected) {
+            assert!((moment / expected - 1.0).abs() < 1e-4, "{moments:?}, {kernel:?}");
+        }
+        let at_largest = libm::exp(-kernel.log_density_wide(0, kernel.wide[1])) / kernel.support_length();
+        assert!((at_largest / kernel.weights_of_uniform()[0] - 1.0).abs() < 1e-9);
+    }
+    Ok(())
+}
+
 /// Kernels of all sizes.
 fn kernel() -> impl Strategy<Value = Kernel> {
     let sizes = (LEAST_STEP.to_bits()..LONGEST_STEP.to_bits()).prop_map(f32::from_bits);

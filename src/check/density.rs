@@ -13,6 +13,10 @@ fn sheets(subject: &Subject, kind: TestKind) -> impl Iterator<Item = Sheet> {
         .map(move |family| Sheet::of_cells(kind, 1, family, families))
 }
 
+/// One in so many replicas is a pilot: only the cells of its known draw are counted. Pilots are independent of all that is
+/// tested, so cells can be chosen by them.
+pub(super) const PILOTS: u32 = 8;
+
 /// Region: from the same state, a proposal y of the mutation with the weight r = q/T, and a draw z of the region. For every
 /// cell h, E[r h(y)] = ∫ q h = E[h(z)]; over all cells E[r] = 1.
 pub(super) fn run_region<'a>(pair: &mut (Replicas<'a>, Replicas<'a>), first: u32, batches: u32) -> Sums {
@@ -33,15 +37,21 @@ pub(super) fn run_region<'a>(pair: &mut (Replicas<'a>, Replicas<'a>), first: u32
         mutation.look(&mut proposed, Side::Proposed);
         region.look(&mut drawn, Side::Proposed);
         let (chosen, densities) = (mutation.chosen(), mutation.log_densities());
-        let flat = mutation.support_log_densities();
+        let known = mutation.support_log_densities();
         for chain in (0..weights.len()).filter(|&c| weights[c] > 0.0 && chosen[c] == number) {
             let replica = first + chain as u32;
+            if replica.is_multiple_of(PILOTS) {
+                for sheet in &mut sums.sheets {
+                    sheet.add_pilot(drawn.of(sheet.family)[chain]);
+                }
+                continue;
+            }
             sums.replicas += 1;
             if !densities[chain].is_finite() {
                 sums.note_stray(replica);
                 continue;
             }
-            let ratio = libm::exp(flat[chain] - densities[chain]);
+            let ratio = libm::exp(known[chain] - densities[chain]);
             for sheet in &mut sums.sheets {
                 let (y, z) = (proposed.of(sheet.family)[chain], drawn.of(sheet.family)[chain]);
                 if y == z {

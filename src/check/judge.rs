@@ -1,5 +1,6 @@
 //! Verdicts: all tests of a check share one significance.
 
+use super::density::PILOTS;
 use super::family::Family;
 use super::report::{TestKind, TestOutcome};
 use super::sheet::{Sheet, Sums};
@@ -12,6 +13,9 @@ const LEAST_EFFECTIVE: f64 = 100.0;
 /// How many times the largest value the spread of a sum must be for its test to be judged: where a few values could be most of
 /// the sum, samples without them look as if nothing could be.
 const LEAST_SPREAD: f64 = 4.0;
+/// Known draws that a cell of a region must hold for its test to be judged, times the bound on E[r⁴] of the weights. The mean
+/// of n values has 1/n of their excess kurtosis: 4 % at most of what r⁴ can make it.
+const LEAST_KNOWN: f64 = 25.0;
 /// The probability with which the smallest visible bias is found.
 const POWER: f64 = 0.95;
 
@@ -20,6 +24,8 @@ pub(super) struct Judged<'a> {
     pub(super) run: &'a str,
     pub(super) families: &'a [Family],
     pub(super) sums: &'a Sums,
+    /// A bound on the fourth moment of the weights, where they are those of proposals in a region.
+    pub(super) fourth_moment: Option<f64>,
 }
 
 /// A test before its verdict.
@@ -41,10 +47,19 @@ pub(super) struct Verdict {
     pub(super) chain: u32,
 }
 
+/// Tests that were not judged.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Unjudged {
+    /// Those that too few replicas had anything to do with.
+    pub(super) rare: usize,
+    /// Those of cells of a region in which too few known draws are for their sums to be normal.
+    pub(super) of_region: usize,
+}
+
 /// Judges all tests of all runs, and counts those that cannot be judged.
-pub(super) fn judge(runs: &[Judged<'_>], significance: f64) -> (Vec<Verdict>, usize) {
+pub(super) fn judge(runs: &[Judged<'_>], significance: f64) -> (Vec<Verdict>, Unjudged) {
     let mut candidates = Vec::new();
-    let mut untested = 0;
+    let mut unjudged = Unjudged::default();
     for (number, run) in runs.iter().enumerate() {
         for sheet in &run.sums.sheets {
             let mut sheet = Reader {
@@ -53,8 +68,9 @@ pub(super) fn judge(runs: &[Judged<'_>], significance: f64) -> (Vec<Verdict>, us
                 family: &run.families[sheet.family],
                 replicas: run.sums.replicas,
                 heaviest: run.sums.heaviest,
+                fourth_moment: run.fourth_moment,
                 candidates: &mut candidates,
-                untested: &mut untested,
+                unjudged: &mut unjudged,
             };
             if sheet.sheet.kind == TestKind::Flow {
                 sheet.read_pairs();
@@ -87,7 +103,7 @@ pub(super) fn judge(runs: &[Judged<'_>], significance: f64) -> (Vec<Verdict>, us
             chain: candidate.extreme,
         }
     };
-    (candidates.into_iter().map(verdict).collect(), untested)
+    (candidates.into_iter().map(verdict).collect(), unjudged)
 }
 
 /// Reads the candidates off a sheet.
@@ -97,8 +113,9 @@ struct Reader<'a> {
     family: &'a Family,
     replicas: u64,
     heaviest: f64,
+    fourth_moment: Option<f64>,
     candidates: &'a mut Vec<Candidate>,
-    untested: &'a mut usize,
+    unjudged: &'a mut Unjudged,
 }
 
 impl Reader<'_> {
@@ -109,9 +126,14 @@ impl Reader<'_> {
             if beside == 0.0 && mean.size == 0.0 {
                 continue;
             }
-            // Where nothing changed, nothing is out of balance.
-            if mean.size > 0.0 && !self.can_judge(row, &mean) {
-                *self.untested += 1;
+            if let Some(moment) = self.fourth_moment {
+                if !self.has_normal_sums(cell, moment) {
+                    self.unjudged.of_region += 1;
+                    continue;
+                }
+            } else if mean.size > 0.0 && !self.can_judge(row, &mean) {
+                // Where nothing changed, nothing is out of balance.
+                self.unjudged.rare += 1;
                 continue;
             }
             self.push(
@@ -156,7 +178,7 @@ impl Reader<'_> {
             let name = format!("{rare_pairs} rarer pairs like {}, together", self.family.cells[0]);
             self.push(&rare, mean, name, mean.size);
         } else if rare_pairs > 0 {
-            *self.untested += 1;
+            self.unjudged.rare += 1;
         }
     }
 
@@ -179,6 +201,13 @@ impl Reader<'_> {
         };
         let spread = mean.error * self.replicas as f64;
         mean.effective >= LEAST_EFFECTIVE && (spread == 0.0 || spread >= LEAST_SPREAD * bound)
+    }
+
+    /// Whether sums over a cell of weights r are near normal: by the bound on E[r⁴], and the known draws that pilots say are
+    /// in the cell. Neither depends on what is tested.
+    fn has_normal_sums(&self, cell: usize, fourth_moment: f64) -> bool {
+        let expected = self.sheet.pilots[cell] as f64 * f64::from(PILOTS - 1);
+        expected >= LEAST_KNOWN * fourth_moment
     }
 
     fn push(&mut self, row: &Tally, mean: Mean, name: String, beside: f64) {

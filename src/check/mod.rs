@@ -10,7 +10,9 @@
 //! - **flow**: E[w a 1_A(x₀) 1_B(y)] = E[w a 1_B(x₀) 1_A(y)]: as much goes from A to B as comes back, since every mutation
 //!   satisfies detailed balance by itself.
 //! - **density**: proposals weighted by 1/T spread over the mutation's [`Support`](crate::plan::Support) as known draws do.
-//!   A constant factor on T cancels in every acceptance, so only this test can see it.
+//!   A constant factor on T cancels in every acceptance, so only this test can see it. Over a region the weights of cells are
+//!   judged where a bound on their fourth moment, and the known draws that pilot replicas have there, make sums near normal;
+//!   reports say how many cells that leaves.
 //!
 //! Test functions h are indicators of classes of states (parts of the film, lengths, signatures, octaves of f) and of cells
 //! of the coordinates that mutations move.

@@ -110,13 +110,18 @@ pub struct TestOutcome {
 }
 
 /// Whether the density could be tested.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Tested {
-    /// Over a region about the state, for paths of at most so many edges.
+    /// Over a region about the state.
     Region {
-        /// The most edges.
-        max_depth: u32,
+        /// Cells that were judged.
+        judged: usize,
+        /// Cells that anything was in: in those that were not judged, too few known draws were for their sums to be near
+        /// normal, and this says nothing of them.
+        cells: usize,
+        /// The smallest relative error that a cell would have shown with a probability of 95 %; none where none was judged.
+        sees: Option<f64>,
     },
     /// Over the whole space.
     Space,
@@ -129,7 +134,27 @@ pub enum Tested {
 impl fmt::Display for Tested {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Region { max_depth } => write!(f, "tested over its region, with paths of at most {max_depth} edges"),
+            Self::Region {
+                judged,
+                cells,
+                sees: Some(sees),
+            } => {
+                let (rare, sees) = (cells - judged, 100.0 * sees);
+                write!(
+                    f,
+                    "tested over its region in {judged} cells, the least visible error {sees:.2} %; "
+                )?;
+                write!(
+                    f,
+                    "NOT TESTED in {rare} that too few known draws are in for normal sums"
+                )
+            }
+            Self::Region { cells, .. } => {
+                write!(
+                    f,
+                    "NOT TESTED: in none of {cells} cells are enough known draws for normal sums"
+                )
+            }
             Self::Space => f.write_str("tested over the whole space"),
             Self::PointMass => f.write_str("none, a point mass: proposals were compared with the state, bit for bit"),
             Self::NoSupport => f.write_str("NOT TESTED: it gives no support"),

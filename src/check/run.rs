@@ -3,7 +3,7 @@
 use super::CheckError;
 use super::deal::deal;
 use super::instrument::Instrumented;
-use super::judge::{Judged, Verdict, judge};
+use super::judge::{Judged, Unjudged, Verdict, judge};
 use super::replicas::{BATCH, Subject};
 use super::report::{Report, SHOWN, TestKind, TestOutcome, Tested};
 use super::sheet::Sums;
@@ -20,12 +20,10 @@ use std::time::Instant;
 pub struct Options {
     /// Replicas of the target and flow tests; rounded up to whole batches.
     pub replicas: u64,
-    /// Proposals that densities over a region are tested with; rounded up likewise. For the whole space it is as many as the
+    /// Proposals that densities over a region are tested with, an eighth of which only say which cells can be judged; rounded
+    /// up likewise. For the whole space it is as many as the
     /// replicas of other tests.
     pub density_replicas: u64,
-    /// The most edges of the paths whose density is tested, where it is known over a region: each coordinate that a proposal
-    /// shares with the state makes 1/T vary more.
-    pub density_depth: u32,
     /// Numbers of steps after which states are looked at, ascending.
     pub steps: Vec<u64>,
     /// What primary-sample-space chains run over.
@@ -42,8 +40,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             replicas: 1 << 17,
-            density_replicas: 1 << 20,
-            density_depth: 2,
+            density_replicas: 1 << 18,
             steps: vec![1, 2, 8],
             base: Base::default(),
             seed: 0,
@@ -123,9 +120,10 @@ pub fn run_watched(
             run: &run.name,
             families: &run.subject.families,
             sums: &run.sums,
+            fourth_moment: run.fourth_moment,
         })
         .collect();
-    let (mut verdicts, untested) = judge(&judged, options.significance);
+    let (mut verdicts, unjudged) = judge(&judged, options.significance);
     verdicts.extend(stray.map(|outcome| Verdict {
         chain: runs.last().and_then(|run| run.sums.first_stray).unwrap_or(0),
         run: runs.len() - 1,
@@ -141,13 +139,30 @@ pub fn run_watched(
         replicas: first.replicas,
         steps: options.steps.clone(),
         density_replicas,
-        density: tested,
-        untested,
+        density: tested.counted(&verdicts, unjudged),
+        untested: unjudged.rare,
         proposals: first.proposed,
         failed_proposals: first.failed,
         tests: verdicts.into_iter().map(|verdict| verdict.outcome).collect(),
         seconds: start.elapsed().as_secs_f64(),
     })
+}
+
+impl Tested {
+    /// The same, with how many of a region's cells were judged.
+    fn counted(self, verdicts: &[Verdict], unjudged: Unjudged) -> Self {
+        let Self::Region { .. } = self else { return self };
+        let outcomes = verdicts.iter().map(|verdict| &verdict.outcome);
+        let of_density = outcomes.filter(|outcome| outcome.kind == TestKind::Density);
+        let (judged, sees) = of_density.fold((0, f64::INFINITY), |(judged, sees), outcome| {
+            (judged + 1, sees.min(outcome.sees))
+        });
+        Self::Region {
+            judged,
+            cells: judged + unjudged.of_region,
+            sees: if judged > 0 { Some(sees) } else { None },
+        }
+    }
 }
 
 /// The technique whose chains move between the mutation's states.
@@ -166,6 +181,8 @@ struct Run {
     name: String,
     subject: Subject,
     sums: Sums,
+    /// See [`Judged`].
+    fourth_moment: Option<f64>,
 }
 
 /// What a check is made of.
@@ -207,13 +224,19 @@ impl Check<'_> {
             if sums.lit == 0 {
                 return Err(CheckError::NoLight { samples: sums.replicas });
             }
-            runs.push(Run { name, subject, sums });
+            runs.push(Run {
+                name,
+                subject,
+                sums,
+                fourth_moment: None,
+            });
         }
         Ok(runs)
     }
 
     /// The tests of the density, as far as the mutation's support allows.
     fn density(&self) -> Result<(Option<Run>, Tested), CheckError> {
+        let mut fourth_moment = None;
         let (subject, sums, tested) = match self.mutation.support() {
             None => return Ok((None, Tested::NoSupport)),
             Some(Support::State) => {
@@ -227,16 +250,11 @@ impl Check<'_> {
                 (subject, sums, Tested::Space)
             }
             Some(Support::Region(region)) => {
-                let max_depth = self.scene.max_depth.min(self.options.density_depth);
-                let scene = Arc::new(Scene {
-                    max_depth,
-                    ..Scene::clone(self.scene)
-                });
                 let with = |instrumented| -> Result<Subject, CheckError> {
                     let mut registry = self.registry.clone();
                     registry.put(Arc::new(instrumented));
                     let registry = registry.only(self.mutation.name()).map_err(CheckError::Unknown)?;
-                    self.subject(registry, &scene)
+                    self.subject(registry, self.scene)
                 };
                 let subject = with(Instrumented::weighed(self.mutation, &region))?;
                 let drawn = with(Instrumented::drawn(self.mutation, &region))?;
@@ -245,11 +263,26 @@ impl Check<'_> {
                     || Ok((subject.replicas()?, drawn.replicas()?)),
                     density::run_region,
                 )?;
-                (subject, sums, Tested::Region { max_depth })
+                fourth_moment = Some(region.fourth_moment);
+                (
+                    subject,
+                    sums,
+                    Tested::Region {
+                        judged: 0,
+                        cells: 0,
+                        sees: None,
+                    },
+                )
             }
         };
         let name = "alone".to_owned();
-        Ok((Some(Run { name, subject, sums }), tested))
+        let run = Run {
+            name,
+            subject,
+            sums,
+            fourth_moment,
+        };
+        Ok((Some(run), tested))
     }
 
     /// The test that proposals are where they can be: it needs no significance, since not one may be elsewhere.

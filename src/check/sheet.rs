@@ -17,6 +17,8 @@ pub(super) struct Sheet {
     pub(super) rows: Vec<Tally>,
     /// What a row's mean is small or large beside, summed over replicas.
     pub(super) beside: Vec<f64>,
+    /// By cell, known draws among replicas that are counted here and in no sum: they say what can be judged.
+    pub(super) pilots: Vec<u64>,
 }
 
 impl Sheet {
@@ -30,6 +32,7 @@ impl Sheet {
             cells,
             rows: vec![Tally::default(); cells],
             beside: vec![0.0; cells],
+            pilots: vec![0; cells],
         }
     }
 
@@ -43,6 +46,7 @@ impl Sheet {
             cells,
             rows: vec![Tally::default(); cells * cells],
             beside: Vec::new(),
+            pilots: Vec::new(),
         }
     }
 
@@ -59,6 +63,14 @@ impl Sheet {
     pub(super) fn add_beside(&mut self, cell: Cell, value: f64) {
         if cell != NOWHERE {
             self.beside[usize::from(cell)] += value;
+        }
+    }
+
+    /// Counts a known draw that is in no sum.
+    #[inline]
+    pub(super) fn add_pilot(&mut self, cell: Cell) {
+        if cell != NOWHERE {
+            self.pilots[usize::from(cell)] += 1;
         }
     }
 
@@ -80,6 +92,7 @@ impl Sheet {
     pub(super) fn merge(&mut self, other: &Self) {
         self.rows.iter_mut().zip(&other.rows).for_each(|(a, b)| a.merge(b));
         self.beside.iter_mut().zip(&other.beside).for_each(|(a, b)| *a += b);
+        self.pilots.iter_mut().zip(&other.pilots).for_each(|(a, b)| *a += b);
     }
 }
 

@@ -1,8 +1,8 @@
 //! The uniform numbers that a path is made of, and where they come from: keyed streams, or the coordinates of a chain.
 
 use super::roulette;
-use crate::chain::{Kernel, to_f32, to_f64};
-use crate::sampling::{Purpose, StreamKey};
+use crate::chain::{Kernel, KnownDraws, to_f32, to_f64};
+use crate::sampling::{Purpose, Stream, StreamKey};
 use crate::scene::Scene;
 use glam::Vec2;
 
@@ -42,6 +42,18 @@ pub const LIGHT_SUBPATH: u32 = 1 << 16;
 /// Whether roulette is played after the vertex whose draws are keyed by `depth`.
 const fn plays_roulette(depth: u32) -> bool {
     depth & !LIGHT_SUBPATH >= roulette::FIRST_DEPTH
+}
+
+/// The stream of the small steps of the vertex whose draws are keyed by `depth`. The film's is at depth 0 too: were it the
+/// same as that of the vertex there, two coordinates would move as one, and T would be no product.
+#[inline]
+fn steps_of_vertex(key: StreamKey, depth: u32) -> Stream {
+    let purpose = if depth == 0 {
+        Purpose::PERTURB_LENS
+    } else {
+        Purpose::PERTURB
+    };
+    key.stream(purpose, depth)
 }
 
 /// Numbers from keyed streams: independent from step to step.
@@ -140,8 +152,22 @@ impl FilmCoordinates {
         Self(self.0.map(|c| kernel.perturb_wide(c, stream.next_u32())))
     }
 
-    /// How many coordinates there are.
-    pub const COUNT: u32 = 2;
+    /// Coordinates drawn about these with a known density.
+    #[must_use]
+    pub fn known(self, known: &KnownDraws, key: StreamKey) -> Self {
+        let mut stream = key.stream(Purpose::PERTURB, 0);
+        Self(
+            self.0
+                .map(|c| known.draw_wide(c, [stream.next_u32(), stream.next_u32()])),
+        )
+    }
+
+    /// ln of the density of drawing `to` about these by [`known`](Self::known).
+    #[must_use]
+    pub fn log_known(self, known: &KnownDraws, to: Self) -> f64 {
+        let pairs = self.0.into_iter().zip(to.0);
+        pairs.map(|(from, to)| known.log_density_wide(from, to)).sum()
+    }
 
     /// Coordinates uniform over those that a small step from these can reach.
     #[must_use]
@@ -202,7 +228,7 @@ impl VertexCoordinates {
     #[inline]
     #[must_use]
     pub fn perturbed(self, kernel: &Kernel, key: StreamKey, depth: u32) -> Self {
-        let mut stream = key.stream(Purpose::PERTURB, depth);
+        let mut stream = steps_of_vertex(key, depth);
         // Eight steps fill the lanes that seven need.
         let steps = kernel.steps::<8>(std::array::from_fn(|i| if i < 7 { stream.next_u32() } else { 0 }));
         let plays = plays_roulette(depth);
@@ -215,50 +241,70 @@ impl VertexCoordinates {
         }
     }
 
-    /// Coordinates of the vertex at `depth` uniform over those that a small step from these can reach.
+    /// Coordinates of the vertex at `depth` drawn about these with a known density.
     #[must_use]
-    pub fn uniform_in_support(self, kernel: &Kernel, key: StreamKey, depth: u32) -> Self {
-        let mut stream = key.stream(Purpose::PERTURB, depth);
-        let scatter = self.scatter.map(|c| kernel.uniform_in_support(c, stream.next_u32()));
-        let choice = kernel.uniform_in_support_wide(self.choice, stream.next_u32());
-        let light = self.light.map(|c| kernel.uniform_in_support(c, stream.next_u32()));
-        let plays = plays_roulette(depth);
+    pub fn known(self, known: &KnownDraws, key: StreamKey, depth: u32) -> Self {
+        let mut stream = steps_of_vertex(key, depth);
+        let known = known.at(depth & !LIGHT_SUBPATH);
+        let mut random = || [stream.next_u32(), stream.next_u32()];
         Self {
-            choice,
-            light,
-            scatter,
-            roulette: if plays {
-                kernel.uniform_in_support(self.roulette, stream.next_u32())
+            scatter: self.scatter.map(|c| known.draw(c, random())),
+            choice: known.draw_wide(self.choice, random()),
+            light: self.light.map(|c| known.draw(c, random())),
+            roulette: if plays_roulette(depth) {
+                known.draw(self.roulette, random())
             } else {
                 0
             },
-            lobe: kernel.uniform_in_support(self.lobe, stream.next_u32()),
+            lobe: known.draw(self.lobe, random()),
         }
+    }
+
+    /// ln of the density of drawing `to` about these by [`known`](Self::known). Those coordinates count that the plan has.
+    #[must_use]
+    pub fn log_known(self, known: &KnownDraws, to: Self, depth: u32, set: CoordinateSet) -> f64 {
+        let known = known.at(depth & !LIGHT_SUBPATH);
+        self.sum_of_logs(
+            to,
+            (depth, set),
+            |from, to| known.log_density(from, to),
+            |from, to| known.log_density_wide(from, to),
+        )
     }
 
     /// ln of the density of the small step from these to `to` at the vertex at `depth`. Those coordinates count that
     /// the plan has.
     #[must_use]
     pub fn log_density(self, kernel: &Kernel, to: Self, depth: u32, set: CoordinateSet) -> f64 {
-        let narrow =
-            |from: [u32; 2], to: [u32; 2]| kernel.log_density(from[0], to[0]) + kernel.log_density(from[1], to[1]);
-        let mut sum = narrow(self.scatter, to.scatter);
-        if set.lights {
-            sum += kernel.log_density_wide(self.choice, to.choice) + narrow(self.light, to.light);
-        }
-        if plays_roulette(depth) {
-            sum += kernel.log_density(self.roulette, to.roulette);
-        }
-        if set.lobes {
-            sum += kernel.log_density(self.lobe, to.lobe);
-        }
-        sum
+        self.sum_of_logs(
+            to,
+            (depth, set),
+            |from, to| kernel.log_density(from, to),
+            |from, to| kernel.log_density_wide(from, to),
+        )
     }
 
-    /// How many coordinates the vertex at `depth` has.
-    #[must_use]
-    pub const fn count(depth: u32, set: CoordinateSet) -> u32 {
-        2 + if set.lights { 3 } else { 0 } + if plays_roulette(depth) { 1 } else { 0 } + if set.lobes { 1 } else { 0 }
+    /// The sum over the coordinates that the vertex at `depth` has of what `narrow` and `wide` say of each.
+    #[inline]
+    fn sum_of_logs(
+        self,
+        to: Self,
+        (depth, set): (u32, CoordinateSet),
+        narrow: impl Fn(u32, u32) -> f64,
+        wide: impl Fn(u64, u64) -> f64,
+    ) -> f64 {
+        let pair = |from: [u32; 2], to: [u32; 2]| narrow(from[0], to[0]) + narrow(from[1], to[1]);
+        let mut sum = pair(self.scatter, to.scatter);
+        if set.lights {
+            sum += wide(self.choice, to.choice) + pair(self.light, to.light);
+        }
+        if plays_roulette(depth) {
+            sum += narrow(self.roulette, to.roulette);
+        }
+        if set.lobes {
+            sum += narrow(self.lobe, to.lobe);
+        }
+        sum
     }
 
     /// The numbers that connect to a light.
@@ -297,5 +343,45 @@ impl VertexCoordinates {
     #[must_use]
     pub fn roulette_draw(self) -> f32 {
         to_f32(self.roulette)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chain::KernelError;
+
+    /// The sizes and signs of all steps of one proposal, from coordinates that are all 0: no two are alike, whether they are of
+    /// the film or of the vertices that either subpath starts at and goes on by. Where two were, T would be no product.
+    #[test]
+    fn no_two_coordinates_move_by_the_same_random_numbers() -> Result<(), KernelError> {
+        let kernel = Kernel::new(1.0 / 1024.0, 0.5)?;
+        let key = StreamKey::new(1, 2, 3);
+        let known = KnownDraws::about(kernel);
+        for is_known in [false, true] {
+            let film = FilmCoordinates::default();
+            let film = if is_known {
+                film.known(&known, key)
+            } else {
+                film.perturbed(&kernel, key)
+            };
+            let mut moved = film.0.map(|c| (c >> 32) as u32).to_vec();
+            for depth in [0, 1, 5, LIGHT_SUBPATH, LIGHT_SUBPATH | 1, LIGHT_SUBPATH | 5] {
+                let from = VertexCoordinates::default();
+                let vertex = if is_known {
+                    from.known(&known, key, depth)
+                } else {
+                    from.perturbed(&kernel, key, depth)
+                };
+                moved.extend(vertex.scatter.into_iter().chain(vertex.light));
+                moved.extend([(vertex.choice >> 32) as u32, vertex.lobe]);
+                moved.extend(plays_roulette(depth).then_some(vertex.roulette));
+            }
+            // To what 24 bits of size tell apart.
+            moved.iter_mut().for_each(|c| *c >>= 8);
+            moved.sort_unstable();
+            assert!(moved.windows(2).all(|pair| pair[0] != pair[1]), "{moved:?}");
+        }
+        Ok(())
     }
 }

@@ -16,7 +16,8 @@ pub enum Support {
 }
 
 /// A region that can be drawn from with a density q(x→y) which is known without T. It must be positive where T is, and zero
-/// elsewhere; the flatter q/T, the more a test sees. Uniform over the region is the usual choice.
+/// elsewhere; the flatter q/T, the more a test sees. Uniform over the region will do where it is of few coordinates; of many,
+/// hardly any draw is where T is large, and [`KnownDraws`](crate::chain::KnownDraws) do better.
 #[derive(Clone, Debug)]
 pub struct Region {
     /// Systems that propose with the density q, in place of the mutation's own: they find their chains, and the mutation's
@@ -25,4 +26,8 @@ pub struct Region {
     /// Systems of the evaluate stage, where they run before the proposal's light is gathered, that write ln q(x→y) to [`SupportDensity`](crate::chain::SupportDensity), whichever
     /// systems proposed y.
     pub weigh: Vec<SystemPlan>,
+    /// A bound on E[(q/T)⁴] over the mutation's proposals from any state, at least 1. It follows from how the mutation should
+    /// draw, and says how many known draws have to be in a cell for its sums to be near normal: cells with fewer are not
+    /// judged, whatever their sums are.
+    pub fourth_moment: f64,
 }

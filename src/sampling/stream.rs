@@ -25,7 +25,7 @@ impl Purpose {
     pub const MUTATION: Self = Self(4);
     /// Whether to take a proposal.
     pub const ACCEPT: Self = Self(5);
-    /// How far a small step moves the coordinates of the given depth.
+    /// How far a small step moves the coordinates of the film, at depth 0, and those of vertices at the given depth beyond.
     pub const PERTURB: Self = Self(6);
     /// Choice of the seeds among the samples of a group's bootstrap.
     pub const RESAMPLE: Self = Self(7);
@@ -38,6 +38,8 @@ impl Purpose {
     pub const EMISSION: Self = Self(10);
     /// Choice of the pixel that a light path's splat counts for, at the vertex of the given depth.
     pub const SPLAT: Self = Self(11);
+    /// How far a small step moves the coordinates of the vertex that a camera subpath starts at: at the depth of the film's.
+    pub const PERTURB_LENS: Self = Self(12);
 
     /// A purpose of a system outside this crate, by a name that no other system uses: a hash of it (FNV-1a), apart from all
     /// of the above.

@@ -5,8 +5,8 @@ use super::super::tile::{Queues, TilePlace};
 use super::super::trace::draws::{CoordinatesMut, CurrentCoordinates};
 use crate::chain::{ChosenMutation, CommonDensity, ForwardDensity};
 use crate::path::{
-    ChainTable, CoordinateSet, DrawList, FilmCoordinates, PathLength, PrimaryDepth, ProposedDepth,
-    ProposedPrimaryTable, VertexCoordinates,
+    ChainTable, CoordinateSet, DrawList, PathLength, PrimaryDepth, ProposedDepth, ProposedPrimaryTable,
+    VertexCoordinates,
 };
 use crate::sampling::StreamKey;
 use crate::table::{Read, Rows, Write};
@@ -112,24 +112,4 @@ impl Drawing<'_, '_> {
             }
         }
     }
-}
-
-/// How many coordinates the current state of `chain` and its proposal both have: those of the film, and of vertices that both
-/// have.
-#[must_use]
-pub fn shared_coordinates(
-    place: &TilePlace,
-    chain: usize,
-    set: CoordinateSet,
-    current: &[PrimaryDepth],
-    proposed: &[ProposedDepth],
-) -> u32 {
-    let of_path = |path: usize| {
-        let shared = current.at(path).min(proposed.at(path));
-        let depths = place.first_coordinate..=shared;
-        depths
-            .map(|depth| VertexCoordinates::count(place.stream_depth(path, depth), set))
-            .sum::<u32>()
-    };
-    FilmCoordinates::COUNT + place.subpaths(chain).map(of_path).sum::<u32>()
 }

@@ -5,6 +5,7 @@ mod choose_mutation;
 pub mod drawing;
 pub mod identity;
 mod key_chains;
+pub mod known;
 pub mod large_step;
 mod list_starts;
 pub mod proposal;

@@ -20,7 +20,7 @@ use super::super::list::{
 };
 use super::drawing::{Drawing, Drawn};
 use super::proposal::Proposals;
-use crate::chain::{Kernel, MutationList};
+use crate::chain::{Kernel, KnownDraws, MutationList};
 use crate::path::{ChainTable, FilmCoordinates, PrimaryFilm, VertexCoordinates};
 use crate::plan::{MovesVertices, Mutation, Region, Registered, StateSpace, Support, SystemPlan};
 use crate::sampling::StreamKey;
@@ -92,13 +92,14 @@ impl Mutation for SmallStep {
     fn support(&self) -> Option<Support> {
         Some(Support::Region(Region {
             draw: vec![
-                SystemPlan::new(PROPOSE_SMALL_SUPPORTS, "any start that a small step can reach"),
-                SystemPlan::new(DRAW_SMALL_SUPPORTS, "and any way on"),
+                SystemPlan::new(
+                    PROPOSE_SMALL_SUPPORTS,
+                    "known draws of starts that a small step can reach",
+                ),
+                SystemPlan::new(DRAW_SMALL_SUPPORTS, "and of ways on"),
             ],
-            weigh: vec![SystemPlan::new(
-                WEIGH_SMALL_SUPPORTS,
-                "1 over the length that each shared coordinate can reach",
-            )],
+            weigh: vec![SystemPlan::new(WEIGH_SMALL_SUPPORTS, "the density of those draws")],
+            fourth_moment: KnownDraws::FOURTH_MOMENT,
         }))
     }
 }

@@ -31,7 +31,7 @@ const GOLDEN: [(Contender, &str); 3] = [
     ),
     (
         Contender::of(Technique::Pssmlt, Base::Bdpt),
-        "7435beb389948852ac1e762f768d0d82c7bda754340de531a762f7f2bac46eb2",
+        "dc04d9778bd3433dd35d1c8f548eac90f71e3da4450545a5990b36ee3f5c861e",
     ),
 ];
 

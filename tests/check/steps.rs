@@ -2,18 +2,15 @@
 
 use bevy_ecs::schedule::IntoScheduleConfigs;
 use bevy_ecs::system::Res;
-use chainlight::chain::{Kernel, MutationList, SupportDensity};
-use chainlight::path::{
-    ChainTable, CoordinateSet, FilmCoordinates, PrimaryDepth, PrimaryFilm, ProposedDepth, VertexCoordinates,
-};
+use chainlight::chain::{Kernel, KnownDraws, MutationList};
+use chainlight::path::{ChainTable, CoordinateSet, FilmCoordinates, PrimaryFilm, VertexCoordinates};
 use chainlight::plan::{InPlan, Mutation, Place, Region, Registered, Stage, SystemPlan, SystemSpec, TraceStep};
 use chainlight::sampling::StreamKey;
 use chainlight::systems::chains::{Keys, MutationLists};
-use chainlight::systems::propose::drawing::{Drawing, Drawn, shared_coordinates};
+use chainlight::systems::propose::drawing::{Drawing, Drawn};
+use chainlight::systems::propose::known::KnownDensities;
 use chainlight::systems::propose::proposal::Proposals;
-use chainlight::systems::tile::TilePlace;
-use chainlight::systems::trace::draws::CurrentCoordinates;
-use chainlight::table::{Read, Rows, Write};
+use chainlight::table::{Read, Rows};
 
 /// A proposal of some coordinates.
 pub struct Move<T> {
@@ -97,6 +94,7 @@ pub fn region<M: Steps>() -> Region {
             spec!(weigh_supports::<M>, Place::Stage(Stage::Evaluate)),
             "a twin",
         )],
+        fourth_moment: KnownDraws::FOURTH_MOMENT,
     }
 }
 
@@ -144,38 +142,25 @@ fn propose_supports<M: Steps>(
     film: Read<PrimaryFilm, ChainTable>,
     mut proposals: Proposals,
 ) {
-    let kernel = mutation.settings.kernel();
+    let known = KnownDraws::about(mutation.settings.kernel());
     let (list, keys, film, mut proposals) = (list.rows(), keys.columns(), film.rows(), proposals.columns());
     for entry in lists.entries(mutation.number) {
         let chain = list.at(entry) as usize;
-        let drawn = FilmCoordinates(film.at(chain)).uniform_in_support(&kernel, keys.at(chain));
+        let drawn = FilmCoordinates(film.at(chain)).known(&known, keys.at(chain));
         proposals.start(chain, drawn, 0.0);
     }
 }
 
 fn draw_supports<M: Steps>(mutation: Res<Registered<M>>, mut drawing: Drawing) {
-    let kernel = mutation.settings.kernel();
+    let known = KnownDraws::about(mutation.settings.kernel());
     drawing.draw(mutation.number, |current, waiting| {
         current.map_or_else(
             || Drawn::afresh(waiting),
-            |from| Drawn::uniform(from.uniform_in_support(&kernel, waiting.key, waiting.depth)),
+            |from| Drawn::uniform(from.known(&known, waiting.key, waiting.depth)),
         )
     });
 }
 
-fn weigh_supports<M: Steps>(
-    mutation: Res<Registered<M>>,
-    place: Res<TilePlace>,
-    current_depths: Read<PrimaryDepth, ChainTable>,
-    depths: Read<ProposedDepth, ChainTable>,
-    current: CurrentCoordinates,
-    mut densities: Write<SupportDensity, ChainTable>,
-) {
-    let log_length = libm::log(mutation.settings.kernel().support_length());
-    let set = current.columns().set();
-    let (current_depths, depths, densities) = (current_depths.rows(), depths.rows(), densities.rows());
-    for chain in 0..place.chains as usize {
-        let count = shared_coordinates(&place, chain, set, current_depths, depths);
-        densities.put(chain, -log_length * f64::from(count));
-    }
+fn weigh_supports<M: Steps>(mutation: Res<Registered<M>>, mut densities: KnownDensities) {
+    densities.weigh(mutation.number, &KnownDraws::about(mutation.settings.kernel()));
 }

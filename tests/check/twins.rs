@@ -5,7 +5,9 @@ use bevy_ecs::schedule::IntoScheduleConfigs;
 use bevy_ecs::system::Res;
 use chainlight::chain::{Class, ForwardDensity, Kernel, MutationList, ReverseDensity, StateClass};
 use chainlight::path::{ChainTable, FilmCoordinates, PrimaryDepth, ProposedDepth, VertexCoordinates, roulette};
-use chainlight::plan::{InPlan, Mutation, Place, Registered, Stage, StateSpace, Support, SystemPlan, SystemSpec};
+use chainlight::plan::{
+    InPlan, Mutation, Place, Region, Registered, Stage, StateSpace, Support, SystemPlan, SystemSpec,
+};
 use chainlight::sampling::{Purpose, StreamKey};
 use chainlight::systems::chains::{MutationLists, Mutations};
 use chainlight::table::{Read, Rows, Write};
@@ -152,6 +154,48 @@ impl Steps for Sound {
         narrow()
     }
 }
+
+twin!(
+    /// A small step whose density counts one coordinate of every first vertex twice.
+    Miscounted,
+    "miscounted",
+    Some(Support::Region(region::<Self>()))
+);
+
+impl Steps for Miscounted {
+    fn shared(&self, from: VertexCoordinates, at: Reached, key: StreamKey) -> Move<VertexCoordinates> {
+        let to = from.perturbed(&self.kernel(), key, at.depth);
+        let density = from.log_density(&self.kernel(), to, at.depth, at.set);
+        let again = self.kernel().log_density(from.scatter[0], to.scatter[0]);
+        Move::new(to, if at.depth == 1 { density + again } else { density })
+    }
+}
+
+twin!(
+    /// A small step that says its steps on the film are uniform between their sizes.
+    Misjudged,
+    "misjudged",
+    Some(Support::Region(region::<Self>()))
+);
+
+impl Steps for Misjudged {
+    fn film(&self, from: FilmCoordinates, key: StreamKey) -> Move<FilmCoordinates> {
+        let to = from.perturbed(&self.kernel(), key);
+        Move::new(to, -2.0 * libm::log(self.kernel().support_length()))
+    }
+}
+
+twin!(
+    /// A small step whose known draws are so far from it that no bound on the weights is of use.
+    Uneven,
+    "uneven",
+    Some(Support::Region(Region {
+        fourth_moment: 1e12,
+        ..region::<Self>()
+    }))
+);
+
+impl Steps for Uneven {}
 
 twin!(
     /// A small step that forgets to draw the coordinates beyond the end of the current path: they are all 1/2.

@@ -3,7 +3,8 @@
 use super::twins::*;
 use crate::support::verdict::say;
 use chainlight::check::{CheckError, Options, Report, TestKind, Tested, built_in_scene, run};
-use chainlight::plan::Registry;
+use chainlight::plan::{Base, Registry};
+use chainlight::stats::normal::sidak;
 use chainlight::systems::propose::mutations;
 
 /// Few replicas, for mistakes that are large.
@@ -111,6 +112,80 @@ fn a_constant_factor_fails_by_density_alone() {
         .find(|(kind, _)| *kind != TestKind::Density);
     assert_eq!(other, None);
     assert!(check(&registry, "sound", &options).passed());
+}
+
+/// Over both ends, where a state has twenty coordinates and more: one of `runs` runs, which all pass with a probability of
+/// 99 % when nothing is wrong.
+fn over_both_ends(seed: u64, runs: usize) -> Options {
+    Options {
+        base: Base::Bdpt,
+        steps: vec![1],
+        seed,
+        significance: sidak(0.01, runs),
+        ..quick()
+    }
+}
+
+#[test]
+fn every_registered_mutation_passes_over_both_ends_whatever_the_seed() {
+    let registry = mutations();
+    let seeds = 1..=3;
+    let runs = registry.iter().count() * seeds.clone().count();
+    for seed in seeds {
+        for mutation in registry.iter() {
+            let report = check(&registry, mutation.name(), &over_both_ends(seed, runs));
+            assert!(report.passed(), "{report}");
+            if let Tested::Region { judged, sees, .. } = report.density {
+                assert!(judged > 50 && sees.is_some_and(|sees| sees < 0.03), "{report}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_constant_factor_fails_by_density_over_both_ends_whatever_the_seed() {
+    let registry = mutations().with(Inflated::default()).with(Sound::default());
+    for seed in 1..=3 {
+        let report = check(&registry, "inflated", &over_both_ends(seed, 4));
+        assert_eq!(refused(&report, &[TestKind::Density]), "all states");
+        assert_eq!(report.failures().0.len(), 1, "{report}");
+    }
+    assert!(check(&registry, "sound", &over_both_ends(4, 4)).passed());
+}
+
+/// A coordinate too many in T, and the wrong law of steps in it: in a mutation that moves dozens of coordinates.
+#[test]
+fn a_density_that_is_wrong_in_one_coordinate_fails_over_both_ends() {
+    let registry = mutations().with(Miscounted::default()).with(Misjudged::default());
+    for name in ["miscounted", "misjudged"] {
+        let report = check(&registry, name, &over_both_ends(1, 2));
+        assert_eq!(refused(&report, &[TestKind::Density]), "all states");
+    }
+}
+
+#[test]
+fn a_large_step_that_is_not_uniform_fails_over_both_ends() {
+    let options = Options {
+        replicas: 1 << 16,
+        ..over_both_ends(1, 1)
+    };
+    let report = check(&mutations().with(Cornered::default()), "cornered", &options);
+    let bin = refused(&report, &[TestKind::Uniform, TestKind::Density]);
+    assert!(bin.starts_with("film coordinates, cell ("), "{bin}");
+}
+
+/// Of a region so uneven that no sum can be near normal, nothing is judged, and the report says that.
+#[test]
+fn cells_whose_sums_are_not_normal_are_not_judged() {
+    let options = Options {
+        replicas: 1 << 12,
+        density_replicas: 1 << 12,
+        ..quick()
+    };
+    let report = check(&mutations().with(Uneven::default()), "uneven", &options);
+    assert_eq!(report.of_kind(TestKind::Density).count(), 0);
+    assert!(matches!(report.density, Tested::Region { judged: 0, cells, sees: None } if cells > 0));
+    assert!(report.to_string().contains("NOT TESTED: in none of"), "{report}");
 }
 
 #[test]
