@@ -108,7 +108,8 @@ impl LightTable {
     /// The lights that send some light and that no path meets by chance: points, and single directions.
     pub fn unmet(&self) -> impl Iterator<Item = u32> {
         let others = self.emitters.len() as u32..self.len() as u32;
-        others.filter(|&light| self.is_delta(light) && !self.is_empty() && self.choice.probability(light as usize) > 0.0)
+        others
+            .filter(|&light| self.is_delta(light) && !self.is_empty() && self.choice.probability(light as usize) > 0.0)
     }
 
     /// Whether there are lights that rays meet which leave the scene.

@@ -389,7 +389,10 @@ mod tests {
                 for (technique, base) in others() {
                     let case = format!("{smooth} {light} {technique} {base}");
                     let [missed] = missing(&scene, technique, base).try_into().expect(&case);
-                    assert!(missed.is_likely() && missed.what.contains("(lights[0] ("), "{case}: {missed}");
+                    assert!(
+                        missed.is_likely() && missed.what.contains("(lights[0] ("),
+                        "{case}: {missed}"
+                    );
                     let with_both = technique == Technique::Bdpt || base == Base::Bdpt;
                     let (share, found_by) = if with_both {
                         (Some(0.25), NOBODY)
@@ -399,7 +402,10 @@ mod tests {
                     assert_eq!((missed.share, missed.found_by), (share, found_by), "{case}");
                 }
                 let by_lt = missing(&scene, Technique::Lt, Base::Pt);
-                assert!(by_lt.iter().all(|missed| missed.found_by == NOT_LIGHTS_ALONE_BUT), "{by_lt:?}");
+                assert!(
+                    by_lt.iter().all(|missed| missed.found_by == NOT_LIGHTS_ALONE_BUT),
+                    "{by_lt:?}"
+                );
             }
         }
     }
