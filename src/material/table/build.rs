@@ -26,9 +26,7 @@ impl MaterialTable {
         };
         let first = self.append(format!("{name} (front)"), named(front).unwrap_or(&missing), false);
         let second = self.append(format!("{name} (back)"), named(back).unwrap_or(&missing), true);
-        let unsided = self.sides.len() as u32..first;
-        self.sides.extend(unsided.map(|material| [material; 2]));
-        self.sides.push([first, second]);
+        self.sides.put(first, second);
         first
     }
 
