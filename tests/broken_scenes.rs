@@ -216,6 +216,11 @@ fn mistakes_of_the_camera_the_film_and_the_settings() {
         ),
         ("a filter too narrow", "radius: 1.5", "radius: 0.1"),
         ("a filter too sharp", "sigma: 0.5", "sigma: 0"),
+        (
+            "a filter too sharp for its radius",
+            "radius: 1.5, sigma: 0.5",
+            "radius: 16, sigma: 0.05",
+        ),
         ("an exposure too bright", "height: 512", "height: 512, exposure: 33"),
         (
             "an exposure that is no number",
@@ -544,7 +549,13 @@ fn mistakes_of_textures() {
     write("bright.hdr", &small);
     write("cut.hdr", &small[..small.len() - 5]);
     write("huge.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n");
+    let mut junk = b"\x89PNG\r\n\x1a\n".to_vec();
+    junk.extend([b'x'; 50]);
+    write("junk.png", &junk);
+    write("junk.exr", &[b"\x76\x2f\x31\x01".as_slice(), &[b'x'; 80]].concat());
     let cases = [
+        ("a damaged file", "\"t\": Bitmap(file: \"junk.png\")"),
+        ("another damaged file", "\"t\": Bitmap(file: \"junk.exr\")"),
         ("a checkerboard", "\"t\": Checkerboard(scale: (8, 8))"),
         ("a kind misspelt", "\"t\": Checkers()"),
         ("a colour above one", "\"t\": Checkerboard(even: (1, 1.5, 1))"),
@@ -903,8 +914,15 @@ fn mistakes_of_environments() {
     fs::create_dir(at("folder.exr")).expect("a folder");
     let whole = fs::read(at("good.exr")).expect("a picture");
     fs::write(at("cut.exr"), &whole[..whole.len() - 20]).expect("a file");
+    let head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
+    fs::write(at("empty.hdr"), format!("{head}-Y 0 +X 0\n")).expect("a file");
+    fs::write(at("cut.hdr"), format!("{head}-Y 1 +X 2\n123")).expect("a file");
+    fs::write(at("junk.exr"), [&whole[..8], &[b'x'; 76]].concat()).expect("a file");
     let mut report = String::new();
     for name in [
+        "empty.hdr",
+        "cut.hdr",
+        "junk.exr",
         "good.exr",
         "good.hdr",
         "missing.exr",

@@ -8,7 +8,8 @@
 //! | `height` | what the film's height spans | scene units, [1e-9, 1e9] | required |
 //!
 //! Use it for plans and elevations, and for pictures to measure in. The width follows from the film's shape; pixels are
-//! square. A pixel is the radiance towards the camera, averaged over the pixel's image.
+//! square. Do not use it for pictures as an eye sees them: far things do not look smaller (Pharr, Jakob and Humphreys 2023,
+//! §5.2.1). A pixel is the radiance towards the camera, averaged over the pixel's image.
 
 use super::frame::{FilmPlane, Pose};
 use super::{CameraRay, Projection};

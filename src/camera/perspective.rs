@@ -7,6 +7,9 @@
 //! | `up` | a direction that points up in the picture | world, any length but zero | (0, 1, 0) |
 //! | `fov` | full angle of view across the film's side named by `fov_axis` | degrees, [1e-4, 179.9999] | required |
 //! | `fov_axis` | `Horizontal`, `Vertical`, `Smaller` or `Larger` | | `Vertical` |
+//!
+//! Use it for most pictures. Do not use it where blur is to tell depth: `ThinLens` has a lens with a size. Lines stay straight, and a
+//! pixel is the radiance that arrives at the pinhole through it (Pharr, Jakob and Humphreys 2023, §5.2.2).
 
 use super::frame::{FilmPlane, Pose};
 use super::{CameraRay, Projection};

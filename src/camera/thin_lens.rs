@@ -10,8 +10,8 @@
 //! | `aperture_radius` | radius of the lens: focal length / (2 · f-number) | scene units, [1e-9, 1e9] | required |
 //! | `focus_distance` | from the lens to the plane that is in focus, along the view | scene units, [1e-9, 1e9] | to `target` |
 //!
-//! Use it where blur tells depth. Each sample needs two more numbers, and blurred highlights many more samples; where
-//! everything is to be sharp, `Perspective` costs less. The picture is that of `Perspective` at the focal plane, whatever
+//! Use it where blur tells depth. Do not use it where everything is to be sharp: each sample needs two more numbers, and blurred
+//! highlights many more samples, and `Perspective` costs less. The picture is that of `Perspective` at the focal plane, whatever
 //! the radius, and exposure does not depend on it: a pixel is the mean radiance over lens and pixel. The lens is thin, round
 //! and without aberration or vignetting (Potmesil and Chakravarty 1981; Kolb, Mitchell and Hanrahan 1995, §2).
 //!

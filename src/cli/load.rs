@@ -211,7 +211,7 @@ fn parse_strategy(text: &str) -> Result<(u32, u32), String> {
     let (s, t) = text.split_once(',').ok_or_else(form)?;
     let vertices = |digits: &str| digits.trim().parse::<u32>().map_err(|_| form());
     let (s, t) = (vertices(s)?, vertices(t)?);
-    if t == 0 || s + t < 2 {
+    if t == 0 || u64::from(s) + u64::from(t) < 2 {
         return Err(
             "T is 1 or more and S + T is 2 or more: a path has two vertices at least, and starts on the lens"
                 .to_owned(),

@@ -50,7 +50,8 @@ struct EffectRow<'a> {
 #[derive(Serialize)]
 struct MissingRow<'a> {
     what: &'a str,
-    share: f64,
+    /// `null` where rays from the camera do not tell it.
+    share: Option<f64>,
     found_by: &'static str,
     #[serde(skip)]
     text: String,

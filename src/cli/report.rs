@@ -188,7 +188,7 @@ impl Report {
 
 /// What the technique cannot find of what the camera sees, in words: known before rendering.
 pub(super) fn missed(plan: &Plan) -> Vec<String> {
-    let seen = plan.missing.iter().filter(|missing| missing.share > 0.0);
+    let seen = plan.missing.iter().filter(|missing| missing.is_likely());
     seen.map(|missing| format!("{} cannot find {missing}", plan.technique))
         .collect()
 }

@@ -3,6 +3,7 @@
 use super::load::SceneArgs;
 use crate::path::mis::Heuristic;
 use crate::plan::{Base, Registry, StateSpace, Technique};
+use crate::scene::description::MAX_DEPTH_LIMIT;
 use miette::{Result, miette};
 
 /// Refuses options that have no effect on a render with `technique` of paths of at most `max_depth` edges. `mutations` are
@@ -42,6 +43,13 @@ pub fn refuse(args: &SceneArgs, technique: Technique, max_depth: u32, mutations:
         let edges = u64::from(s) + u64::from(t) - 1;
         if edges > u64::from(max_depth) {
             let most = u64::from(max_depth) + 1;
+            if edges > u64::from(MAX_DEPTH_LIMIT) {
+                return Err(miette!(
+                    help = format!("take S,T whose sum is at most {most}"),
+                    "--strategy {s},{t} finds nothing: its paths have S + T - 1 = {edges} edges, and no path has more than \
+                     {MAX_DEPTH_LIMIT}"
+                ));
+            }
             return Err(miette!(
                 help = format!("take S,T whose sum is at most {most}, or raise --max-depth to {edges}"),
                 "--strategy {s},{t} finds nothing: its paths have S + T - 1 = {edges} edges, and max_depth is {max_depth}"

@@ -92,7 +92,7 @@ pub fn decode_exr(bytes: &[u8]) -> Result<ExrPicture, String> {
         .all_layers()
         .all_attributes()
         .from_buffered(Cursor::new(bytes))
-        .map_err(|e| e.to_string())?;
+        .map_err(in_words)?;
 
     let window = image.attributes.display_window;
     let window = Window {
@@ -160,9 +160,31 @@ pub fn decode_exr(bytes: &[u8]) -> Result<ExrPicture, String> {
     })
 }
 
+/// What is wrong with a file that its decoder complains of.
+fn in_words(error: exr::error::Error) -> String {
+    match error {
+        exr::error::Error::Invalid(cause) => damaged("OpenEXR", &cause),
+        exr::error::Error::Io(cause) => damaged("OpenEXR", &cause.to_string()),
+        other => other.to_string(),
+    }
+}
+
+/// Of a file of the given format that cannot be decoded; `cause` is what its decoder says.
+#[must_use]
+pub fn damaged(format: &str, cause: &str) -> String {
+    let is_prose = |c: char| c.is_alphanumeric() || " ,.:;'-/()".contains(c);
+    let says_something = !cause.is_empty() && cause.chars().all(is_prose) && !cause.contains("::");
+    let cause = if says_something && !cause.contains("whole buffer") {
+        format!(" ({cause})")
+    } else {
+        String::new()
+    };
+    format!("it cannot be decoded as {format}: the file is cut short or damaged{cause}")
+}
+
 /// Refuses a picture too large to hold before anything is allocated for it.
 fn check_size(bytes: &[u8]) -> Result<(), String> {
-    let meta = MetaData::read_from_buffered(bytes, false).map_err(|e| e.to_string())?;
+    let meta = MetaData::read_from_buffered(bytes, false).map_err(in_words)?;
     for header in &meta.headers {
         for size in [header.layer_size, header.shared_attributes.display_window.size] {
             let pixels = (size.0 as u64).saturating_mul(size.1 as u64);

@@ -28,6 +28,10 @@ pub enum FilterError {
     },
 }
 
+/// The least and the largest standard deviation of a Gaussian filter, in radii: below, it is hardly told from zero, and
+/// above from a box.
+pub const SIGMA_PER_RADIUS: [f32; 2] = [0.03, 100.0];
+
 /// A filter, ready to be sampled.
 #[derive(Clone, Debug)]
 pub struct Filter(Kind);
@@ -55,7 +59,8 @@ impl Filter {
             FilterDescription::Box { .. } => Kind::Box { radius },
             FilterDescription::Tent { .. } => Kind::Tent { radius },
             FilterDescription::Gaussian { sigma, .. } => {
-                if !(0.03..=100.0).contains(&(sigma / radius)) {
+                let [least, most] = SIGMA_PER_RADIUS;
+                if !(least..=most).contains(&(sigma / radius)) {
                     return Err(FilterError::Sigma { sigma, radius });
                 }
                 Kind::Gaussian(Box::new(TruncatedGaussian::new(f64::from(radius), f64::from(sigma))))

@@ -4,8 +4,9 @@
 //! |---|---|---|---|
 //! | `radiance` | radiance from every direction | W sr⁻¹ m⁻², [0, 1e12] per channel | this, or `file` |
 //!
-//! Use it for an overcast sky, and for furnace tests: in it, what reflects everything cannot be seen. Directions are
-//! uniform over the sphere. The parameters of `Environment(file)` hold for it too, though turning it changes nothing.
+//! Use it for an overcast sky, and for furnace tests: in it, what reflects everything cannot be seen. Do not use it for light
+//! that comes from somewhere: without shadows to speak of, shapes look flat. It is an infinite area light (Pharr, Jakob and
+//! Humphreys 2023, §12.5). Directions are uniform over the sphere. The parameters of `Environment(file)` hold for it too, though turning it changes nothing.
 
 use super::infinite::Infinite;
 use super::point::UNIFORM;

@@ -5,8 +5,9 @@
 //! | `direction` | the direction in which the light travels | any length but zero | required |
 //! | `irradiance` | on a plane that faces the light | W m⁻², [0, 1e12] per channel | required |
 //!
-//! Use it for a sun without a size; shadows are hard, and no path meets it. A `Sun` has a disc, soft shadows, and shows
-//! in mirrors.
+//! Use it for a sun without a size; shadows are hard, and no path meets it. Do not use it where its shadows' edges, its image in
+//! mirrors or its light by way of glass matter: a `Sun` has a disc, soft shadows, and shows in mirrors. It is the limit of a
+//! distant light of a given irradiance (Pharr, Jakob and Humphreys 2023, §12.3).
 
 use crate::color::Rgb;
 use glam::Vec3;

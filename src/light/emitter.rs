@@ -5,7 +5,9 @@
 //! | `emission` (of a shape) | radiance on the side of the geometric normal, the same in every direction | W sr⁻¹ m⁻², [0, 1e12] per channel | none |
 //!
 //! Use it for lamps, windows and anything that has a size: such light can be met by scattering, and shadows are soft. A
-//! mesh is one light per triangle. Light leaves with density cos θ / π, from points uniform in area.
+//! mesh is one light per triangle. Do not use it for tiny lamps far away, where a `Point` costs less, nor for large meshes of
+//! thousands of triangles: each is a light of its own. Light leaves by Lambert's law (Lambert 1760), with density cos θ / π, from
+//! points uniform in area.
 
 use super::{EmitterPoint, cylinder, disk, sphere, triangle};
 use crate::color::Rgb;

@@ -7,7 +7,9 @@
 //! | `up` | direction of the picture's top row | any length but zero | (0, 1, 0) |
 //! | `rotate` | angle by which the light is turned about `up`, counter-clockwise seen from its tip | degrees, [-36000, 36000] | 0 |
 //!
-//! Use it for measured surroundings. With the defaults the left edge of the picture lies at −Z, a quarter from there at
+//! Use it for measured surroundings (Debevec 1998). Do not use it for things near the scene: all of its light is infinitely
+//! far away, so that nothing casts a shadow on it and it looks alike from everywhere; nor for a sun alone, which a `Sun` is at
+//! less cost. With the defaults the left edge of the picture lies at −Z, a quarter from there at
 //! +X, the middle at +Z: seen from inside it is not mirrored. Texels are centres of equal steps in longitude and latitude;
 //! between them the light is bilinear in longitude and in 1 − cos θ, above the first row and below the last it is that row's.
 //! Directions are drawn with a density in exact proportion to the mean of the channels of that same interpolation, so a

@@ -93,6 +93,12 @@ impl Light {
         }
     }
 
+    /// Whether it sends no light at all.
+    #[must_use]
+    pub fn is_black(&self) -> bool {
+        self.power(BoundingSphere::default()) <= 0.0
+    }
+
     /// A radiance that pictures of the light have: its own, or what a white matt surface that faces the light has, a
     /// radius of the scene away from a point.
     pub(super) fn max_radiance(&self, scene: BoundingSphere) -> f32 {

@@ -7,7 +7,8 @@
 //!
 //! Use it for lamps far smaller than their distance to everything, where hard shadows are wanted. No path meets it: a
 //! mirror does not show it, and a caustic of it is found by tracing light from it alone. Light reaches a surface at
-//! distance d with irradiance I cos θ / d². A small sphere that emits has a size, and can be met.
+//! distance d with irradiance I cos θ / d² (Pharr, Jakob and Humphreys 2023, §12.2). Do not use it where mirrors or glass
+//! throw its light onto other things that are then seen in mirrors or glass: no technique finds that. A small sphere that emits has a size, and can be met.
 
 use crate::color::Rgb;
 use crate::sampling::warp;

@@ -8,7 +8,8 @@
 //! | `scale` | factor of the radiance | none, [0, 1e12] | 1 |
 //! | `up` | the zenith | any length but zero | (0, 1, 0) |
 //!
-//! Use it for daylight, with a `Sun`. Radiance is that of Hosek and Wilkie (2012), evaluated where it is needed; below the
+//! Use it for daylight, with a `Sun`. Do not use it for clouds, twilight or night: the model is of clear air, and of a sun that
+//! is above the horizon. Radiance is that of Hosek and Wilkie (2012), evaluated where it is needed; below the
 //! horizon it is black. Directions are drawn from the same model on a grid, bilinear between; what the grid misses of the
 //! brightness near the sun and the horizon costs variance, not correctness.
 

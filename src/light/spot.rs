@@ -8,7 +8,9 @@
 //! | `cutoff` | half angle of the cone, beyond which nothing shines | degrees, [1e-3, 90] | 20 |
 //! | `beam` | half angle inside which the intensity is full | degrees, [0, `cutoff`] | three quarters of `cutoff` |
 //!
-//! Use it for stage lamps and torches; like a `Point` it is met by no path. Between beam and cutoff the intensity falls
+//! Use it for stage lamps and torches; like a `Point` it is met by no path. Do not use it for lamps whose shade or lens is near
+//! to what they light, which cast soft shadows: a small `Disk` that emits, in a tube, does. It is a point light with a profile
+//! (Pharr, Jakob and Humphreys 2023, §12.2.1). Between beam and cutoff the intensity falls
 //! off as 3s² − 2s³, where s goes from 0 at the cutoff to 1 at the beam in proportion to cos θ: smooth at both ends. It
 //! integrates to π (m_beam + m_cutoff), where m = 1 − cos θ, so directions are drawn with a density in proportion to
 //! the intensity, exactly; m keeps the digits that cos θ loses in narrow cones.

@@ -7,7 +7,8 @@
 //! | `scale` | factor of the radiance | none, [0, 1e12] | 1 |
 //! | `up` | the zenith, from which the sun's elevation is counted | any length but zero | (0, 1, 0) |
 //!
-//! Use it with a `Sky` of the same sun and turbidity; the sky is without its disc. The disc has the true angular radius,
+//! Use it with a `Sky` of the same sun and turbidity; the sky is without its disc. Do not use it for suns of other
+//! sizes or worlds: scale an `Environment(file)`. The disc has the true angular radius,
 //! 0.2665 degrees, and the same radiance everywhere: that of Hosek and Wilkie (2013), its limb darkening averaged. It can
 //! be met: it shows in mirrors, and caustics of it are found from either end. Directions are uniform over the disc. A disc
 //! of which a part is below the horizon shines in whole.

@@ -99,6 +99,19 @@ impl LightTable {
         self.other(light).is_some_and(|light| light.infinite().is_none())
     }
 
+    /// Number of lights that are no shapes: the last so many.
+    #[must_use]
+    pub fn other_count(&self) -> usize {
+        self.others.len()
+    }
+
+    /// The lights that send some light and that no path meets by chance: points, and single directions.
+    pub fn unmet(&self) -> impl Iterator<Item = u32> {
+        let others = self.emitters.len() as u32..self.len() as u32;
+        others
+            .filter(|&light| self.is_delta(light) && !self.is_empty() && self.choice.probability(light as usize) > 0.0)
+    }
+
     /// Whether there are lights that rays meet which leave the scene.
     #[inline]
     #[must_use]

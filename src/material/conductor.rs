@@ -10,7 +10,9 @@
 //!
 //! Use it for polished metal and, with `eta` 0 and `k` 1, for an ideal mirror. It is discrete: light through it can only
 //! be found by following the mirrored direction, so what a mirror throws onto a matt surface (a caustic) is noisy under
-//! path tracing unless the light is large.
+//! path tracing unless the light is large. Do not use it for metal with the least blur or brushing (`RoughConductor`), nor for
+//! a mirror image over a colour (`Plastic`). Reflectance is that of Fresnel's equations for light without polarisation (Born
+//! and Wolf 1999, §14.2).
 
 use super::{MaterialKind, Model, ScatterDraw, Scattered, Transport, fresnel};
 use crate::color::Rgb;

@@ -11,7 +11,10 @@
 //! caustic behind it is found by path tracing only where a path happens to meet the light. Radiance is scaled by the
 //! squared ratio of indices as it crosses (Veach 1997, §5.2); on the way out again the scale returns. An interface
 //! between equal indices reflects nothing and bends nothing; if it also lets all light pass, it is left out of the scene, and
-//! crossings of it count for no edge of a path.
+//! crossings of it count for no edge of a path. Do not use it for a window of one sheet, which would be solid glass to its
+//! other side, for frosted glass (`RoughDielectric`), nor for what absorbs light along its way: glass as deep as it is wide has no
+//! colour here but that of its surface. Reflectance is that of Fresnel's equations for light without polarisation (Born and
+//! Wolf 1999, §1.5.2).
 
 use super::{MaterialKind, Model, ScatterDraw, Scattered, Transport, fresnel};
 use crate::color::Rgb;

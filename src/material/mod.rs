@@ -21,6 +21,7 @@ pub mod plastic;
 pub mod rough_conductor;
 pub mod rough_dielectric;
 mod table;
+pub mod two_sided;
 
 pub use frame::Frame;
 pub(crate) use list::for_each_material;

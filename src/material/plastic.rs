@@ -11,8 +11,10 @@
 //!
 //! Use it for polished plastic, lacquer, glazed tiles, wet paint. `nonlinear` makes colours deeper, as real coats do; without
 //! it a base keeps the colour that it has without coat. The image of a light in it is discrete and is only found by paths
-//! that happen to follow it.
+//! that happen to follow it. Do not use it for coats with a blurred highlight (satin paint, most plastic that was not
+//! polished), which it shows as mirrors, nor for metal under a lacquer: its base is matt.
 //!
+//! It is a matt base below a smooth interface (Wolff 1994), with all reflections between the two (Saunderson 1942).
 //! Light enters through the coat, is scattered by the base, and is reflected back and forth between both before it leaves:
 //! f = (1 − Fᵢ)(1 − Fₒ) ρ / (π n² (1 − ρ F̄)) with F̄ the share of diffuse light that the coat reflects inwards
 //! ([`diffuse_reflectance`](super::fresnel::diffuse_reflectance)); ρ F̄ is F̄ unless `nonlinear`. With ρ = 1 nothing is lost.

@@ -16,7 +16,7 @@
 //!
 //! Each facet is a smooth interface (Walter et al. 2007, eq. 20 and 21; radiance scaled by the squared ratio of indices as
 //! it crosses). A facet is drawn among those seen, and the lobe number chooses between reflection and refraction by the
-//! facet's own reflectance. Between equal indices nothing is there: light passes straight through, and that is discrete.
+//! facet's own reflectance. Between equal indices nothing is there: light passes straight through, and scenes have a smooth `Dielectric` instead.
 //! Between nearly equal ones refraction is as narrow as roughness times the difference, maybe narrower than directions are
 //! rounded. What is drawn is exact all the same: its density and ratio come from the facet's normal, and not from the
 //! half vector, which is the direction of a tiny difference.

@@ -9,6 +9,7 @@ use super::list::for_each_material;
 use super::plastic::Plastic;
 use super::rough_conductor::RoughConductor;
 use super::rough_dielectric::RoughDielectric;
+use super::two_sided::Sides;
 use super::{Evaluated, Model, ScatterDraw, Scattered, Transport};
 use crate::texture::{Shading, TextureTable};
 use glam::{Vec2, Vec3};
@@ -108,8 +109,7 @@ pub struct Needs {
 pub struct MaterialTable {
     names: Vec<String>,
     index: Vec<(MaterialKind, u32)>,
-    /// The numbers of front and back of every material up to the last that differs by side.
-    sides: Vec<[u32; 2]>,
+    sides: Sides,
     /// The models that some material has, in the order of [`MaterialKind::ALL`].
     kinds: Vec<MaterialKind>,
     /// The place of every model in `kinds`, or [`NO_MODEL`]: looked up at every vertex.
@@ -128,7 +128,7 @@ impl Default for MaterialTable {
         Self {
             names: Vec::new(),
             index: Vec::new(),
-            sides: Vec::new(),
+            sides: Sides::default(),
             kinds: Vec::new(),
             numbers: [NO_MODEL; KINDS],
             rows: Rows::default(),
@@ -201,17 +201,14 @@ impl MaterialTable {
     #[inline]
     #[must_use]
     pub fn have_sides(&self) -> bool {
-        !self.sides.is_empty()
+        !self.sides.are_alike()
     }
 
     /// The material that is seen from the front, or from the back, of a surface with this one.
     #[inline]
     #[must_use]
     pub fn facing(&self, material: u32, front: bool) -> u32 {
-        match self.sides.get(material as usize) {
-            None => material,
-            Some(sides) => sides[usize::from(!front)],
-        }
+        self.sides.facing(material, front)
     }
 
     /// What materials may ask of a point with these texture coordinates.

@@ -211,7 +211,7 @@ impl Plan {
         };
         Ok(Self {
             technique,
-            missing: missing::missing(scene, technique),
+            missing: missing::missing(scene, technique, options.base),
             effects,
             tile,
             chains,

@@ -7,6 +7,10 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Technique {
     /// Path tracing with next-event estimation, multiple importance sampling and Russian roulette, in stages over tables.
+    ///
+    /// It cannot find light of a point, a spot or a single direction that comes to a matt surface by way of smooth ones, such
+    /// as a spot's caustic behind a glass ball: no ray meets such a light, and no smooth surface can be joined to it. The same
+    /// holds of chains over it. `bdpt`, `lt` and chains over `bdpt` find it.
     #[default]
     Pt,
     /// The same estimator traced depth first, one path after another: the oracle of the staged one, and its baseline.
@@ -16,10 +20,15 @@ pub enum Technique {
     /// Good at caustics on matt surfaces. It cannot find what the lens sees by way of a vertex that scatters into a single
     /// direction: what stands in a mirror, behind smooth glass or an interface of index 1.00001, or is mirrored in a smooth
     /// coat, is missing from its picture; so is light from infinity that the lens sees directly. Plans say what that is in
-    /// a scene ([`Missing`](super::Missing)). Shapes that emit are seen. `bdpt` and `pt` find all of it.
+    /// a scene ([`Missing`](super::Missing)). Shapes that emit are seen. `bdpt` and `pt` find all of it, but for light
+    /// of points and single directions by way of smooth surfaces.
     Lt,
     /// Bidirectional path tracing (Veach and Guibas 1994; Lafortune and Willems 1993): a subpath from the camera and one from
     /// a light, joined in every way.
+    ///
+    /// It cannot find light of a point, a spot or a single direction that comes to a matt surface by way of smooth ones and is
+    /// seen in or through smooth ones too: such a path has no two neighbours that could be joined. No technique here does; a
+    /// light with a size, such as a small sphere that emits, is met by chance. The same holds of chains over it.
     Bdpt,
     /// Primary-sample-space Metropolis light transport (Kelemen, Szirmay-Kalos, Antal and Csonka 2002) over path tracing.
     Pssmlt,

@@ -3,7 +3,7 @@
 use super::{ChainRender, Rendering};
 use crate::chain::{LongestRejections, StateClass};
 use crate::path::ChainTable;
-use crate::plan::MutationPlan;
+use crate::plan::{Effect, MutationPlan};
 use crate::stats::agreement::{Agreement, judge};
 use crate::stats::comparison::compare;
 use crate::stats::effective_samples::{EffectiveSamples, effective_sample_size};
@@ -58,6 +58,9 @@ pub struct Findings {
     pub missed: Vec<ClassFinding>,
     /// Classes whose share of the light differs from what the bootstraps found.
     pub against_bootstrap: Vec<ClassFinding>,
+    /// Whether anything in the scene emits: if not, black is what there is to find, and the scene's reader says so.
+    #[serde(skip)]
+    pub is_lit: bool,
     /// Ratio of the spread between groups to that expected from inside them, for every block that was visited often enough;
     /// 0 for others.
     #[serde(skip)]
@@ -160,6 +163,7 @@ impl Findings {
             disagreements: disagreements(render, &shares, &agreements),
             missed: missed(render, &shares),
             against_bootstrap: against_bootstrap(render, &shares),
+            is_lit: render.plan().has(Effect::Emission),
             block_ratios,
         }
     }
@@ -168,6 +172,9 @@ impl Findings {
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
+        if !self.is_lit {
+            return warnings;
+        }
         if self.normalization == 0.0 {
             warnings.push(format!(
                 "none of {} bootstrap samples found light: the picture is black, which it may not be; raise --bootstrap",

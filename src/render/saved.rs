@@ -8,7 +8,8 @@ use super::tile_world::lock;
 use super::{ChainRender, Render, Rendering, SplatRender, Start, saved_tile};
 use crate::chain::Normalization;
 use crate::film::{GroupFilm, SavedFilmError};
-use crate::plan::Plan;
+use crate::path::bidirectional::Weights;
+use crate::plan::{Base, Plan};
 use crate::scene::Scene;
 use std::fmt::Write;
 
@@ -63,10 +64,21 @@ fn identity(scene: &Scene, plan: &Plan, seed: u64) -> Vec<(String, String)> {
         ("the film".to_owned(), format!("{} x {}", scene.width, scene.height)),
         ("max_depth".to_owned(), scene.max_depth.to_string()),
     ];
-    identity.push(("the heuristic".to_owned(), plan.tile.heuristic.to_string()));
-    if let Some(strategies) = &plan.strategies {
-        identity.push(("the strategies".to_owned(), format!("{strategies:?}")));
+    // Those that are set by options carry the options' names and words.
+    if plan.chains.is_some() {
+        let base = if plan.strategies.is_some() {
+            Base::Bdpt
+        } else {
+            Base::Pt
+        };
+        identity.push(("--base".to_owned(), base.to_string()));
     }
+    let strategy = match plan.strategies.map(|strategies| strategies.weights) {
+        Some(Weights::Only(s, t)) => format!("{s},{t}"),
+        Some(Weights::All | Weights::Lens) | None => "left out".to_owned(),
+    };
+    identity.push(("--strategy".to_owned(), strategy));
+    identity.push(("--heuristic".to_owned(), plan.tile.heuristic.to_string()));
     if let Some(chains) = &plan.chains {
         let counts = chains.counts;
         identity.push(("the number of groups".to_owned(), counts.groups.to_string()));

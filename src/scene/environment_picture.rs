@@ -6,6 +6,7 @@ use super::limits::MAX_RADIANCE;
 use super::read::open_regular;
 use crate::color::Rgb;
 use crate::light::Image;
+use crate::texture::in_words;
 use glam::DVec3;
 use image::{ImageFormat, ImageReader};
 use std::io::BufReader;
@@ -40,9 +41,16 @@ pub(super) fn read(at: &At, file: &Path, scale: f32, up: DVec3, rotate: f32) -> 
     reader.limits(limits);
     let picture = reader
         .decode()
-        .map_err(|error| cannot(error.to_string(), ""))?
+        .map_err(|error| cannot(in_words(error), "write the picture anew"))?
         .into_rgb32f();
     let (width, height) = (picture.width() as usize, picture.height() as usize);
+    if width == 0 || height == 0 {
+        let problem = format!("it is empty: it has {width} x {height} texels");
+        return Err(cannot(
+            problem,
+            "light of one colour is an `Environment(radiance: ...)`",
+        ));
+    }
     if width as u64 * height as u64 > MAX_TEXELS {
         let problem = format!("it has more than {MAX_TEXELS} texels");
         return Err(cannot(problem, "make it smaller"));

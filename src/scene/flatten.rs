@@ -205,9 +205,8 @@ pub fn flatten(source: &SceneSource) -> Result<Flattened, SceneError> {
         ))
     });
     let lights = placed.collect::<Result<Vec<_>, SceneError>>()?;
-    if lights.is_empty() && instances.iter().all(|instance| instance.emission.is_none()) {
-        let message = "nothing in this scene emits light: the picture will be black";
-        warnings.push(shapes.warning(message, "give a shape an `emission: (1, 1, 1)`"));
+    if instances.iter().all(|instance| instance.emission.is_none()) {
+        warnings.extend(darkness(source, &lights));
     }
     Ok(Flattened {
         instances,
@@ -215,6 +214,24 @@ pub fn flatten(source: &SceneSource) -> Result<Flattened, SceneError> {
         lights,
         textures,
         warnings,
+    })
+}
+
+/// What is to be said of a scene where no shape emits, if none of its other lights does.
+fn darkness(source: &SceneSource, lights: &[(String, Light)]) -> Option<SceneWarning> {
+    let root = At::root(source);
+    if lights.is_empty() {
+        let message = "nothing in this scene emits light: the picture will be black";
+        return Some(
+            root.key("shapes")
+                .warning(message, "give a shape an `emission: (1, 1, 1)`"),
+        );
+    }
+    lights.iter().all(|(_, light)| light.is_black()).then(|| {
+        let message = "no light of this scene has any power: the picture will be black";
+        let help =
+            "give one an intensity, an irradiance, a radiance or a scale above zero, or a picture that is not black";
+        root.key("lights").warning(message, help)
     })
 }
 

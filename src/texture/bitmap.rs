@@ -8,6 +8,9 @@
 //! | `wrap` | beyond the picture: `Repeat` it, `Mirror` every second one, or `Clamp` to its edge | | `Repeat` |
 //! | `scale` | pictures per unit of u and of v | [-1e6, 1e6] | (1, 1) |
 //!
+//! Use it for anything that was photographed or painted, mapped by a shape's texture coordinates (Catmull 1974). Do not use it
+//! for light: its numbers are shares of light from 0 to 1, and radiance is an `Environment(file)`.
+//!
 //! The lower left corner of the picture is at u = v = 0, its upper right corner at u = v = 1 (over the scale); v points
 //! up. Texel centres are half a texel inside. Use `Linear` for pictures that hold numbers rather than colours. There are no
 //! smaller versions of the picture (mipmaps): what is finer than a pixel is averaged by the samples of the pixel, which

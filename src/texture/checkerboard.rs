@@ -6,6 +6,9 @@
 //! | `odd` | the colour of the others | [0, 1] per channel | 0.2 |
 //! | `scale` | cells per unit of u and of v | [-1e6, 1e6] | (1, 1) |
 //!
+//! Use it for floors, and to see how texture coordinates lie on a shape. Do not use it for tiles with joints or any third colour:
+//! a `Bitmap` has them. The cell ⌊su⌋ + ⌊tv⌋ is even or odd (Ebert et al. 2003, chapter 2).
+//!
 //! A cell holds its edges towards smaller coordinates. Nothing is filtered: cells smaller than a pixel are averaged by the
 //! samples of the pixel. A scale of zero makes stripes.
 

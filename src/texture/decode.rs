@@ -3,9 +3,11 @@
 use super::picture::Picture;
 use super::srgb;
 use crate::color::Rgb;
-use crate::film::decode_exr;
+use crate::film::{damaged, decode_exr};
 use crate::scene::TextureEncoding;
+use image::error::ImageFormatHint;
 use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits};
+use std::error::Error;
 use std::io::Cursor;
 
 /// The most texels of a picture: 8192 x 8192.
@@ -60,11 +62,21 @@ pub fn decode(bytes: &[u8], encoding: TextureEncoding) -> Result<Picture, String
     }
 }
 
-/// A decoder's complaint.
-fn in_words(error: ImageError) -> String {
+/// What is wrong with a picture that its decoder complains of. The decoder's own words stand beside it where people can
+/// read them.
+pub fn in_words(error: ImageError) -> String {
     match error {
         ImageError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
-            "it ends too early".to_owned()
+            "it ends too early: the file is cut short".to_owned()
+        }
+        ImageError::Decoding(error) => {
+            let format = match error.format_hint() {
+                ImageFormatHint::Exact(ImageFormat::OpenExr) => "OpenEXR".to_owned(),
+                ImageFormatHint::Exact(ImageFormat::Hdr) => "Radiance HDR".to_owned(),
+                ImageFormatHint::Exact(format) => format!("{format:?}").to_uppercase(),
+                _ => "a picture".to_owned(),
+            };
+            damaged(&format, &error.source().map(ToString::to_string).unwrap_or_default())
         }
         other => other.to_string(),
     }

@@ -15,7 +15,7 @@ mod table;
 
 pub use bitmap::Bitmap;
 pub use checkerboard::Checkerboard;
-pub use decode::{MAX_TEXELS, decode};
+pub use decode::{MAX_TEXELS, decode, in_words};
 pub use picture::{Picture, Texel};
 pub use table::TextureTable;
 

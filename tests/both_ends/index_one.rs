@@ -49,15 +49,31 @@ fn room(glass: Option<&str>, max_depth: u32) -> Arc<Scene> {
 #[test]
 fn a_box_of_nothing_changes_no_picture() {
     for contender in Contender::ALL {
-        let bytes = |scene: Arc<Scene>| {
-            let plan = Plan::with(&scene, contender.technique, &contender.options()).expect("a plan");
-            let never = AtomicBool::new(false);
-            let mut render = start(scene, plan, 1, 1, &never, &|_| {}).expect("a small film");
-            render.burst(8, &|_| {});
-            picture_bytes(&render.picture())
-        };
-        let with = bytes(room(Some("Dielectric(interior_ior: 1.0)"), EDGES));
-        assert!(with == bytes(room(None, EDGES)), "{contender}");
+        let with = bytes(contender, room(Some("Dielectric(interior_ior: 1.0)"), EDGES));
+        assert!(with == bytes(contender, room(None, EDGES)), "{contender}");
+    }
+}
+
+/// The picture of a short render.
+fn bytes(contender: Contender, scene: Arc<Scene>) -> Vec<u8> {
+    let plan = Plan::with(&scene, contender.technique, &contender.options()).expect("a plan");
+    let never = AtomicBool::new(false);
+    let mut render = start(scene, plan, 1, 1, &never, &|_| {}).expect("a small film");
+    render.burst(8, &|_| {});
+    picture_bytes(&render.picture())
+}
+
+/// Facets between equal indices bend nothing, so that the box is a filter of colour, however rough it is said to be.
+#[test]
+fn a_rough_filter_between_equal_indices_is_a_smooth_one() {
+    let filter = |kind: &str, alpha: &str| {
+        let parameters = "interior_ior: 1.5, exterior_ior: 1.5, transmittance: (0.9, 0.5, 0.2)";
+        room(Some(&format!("{kind}({parameters}{alpha})")), EDGES)
+    };
+    for contender in Contender::ALL {
+        let rough = bytes(contender, filter("RoughDielectric", ", alpha: 0.2"));
+        assert!(rough == bytes(contender, filter("Dielectric", "")), "{contender}");
+        assert!(rough != bytes(contender, room(None, EDGES)), "{contender}");
     }
 }
 

@@ -48,6 +48,86 @@ fn a_picture_without_light_is_told_with_what_to_try() {
     }
 }
 
+/// Whatever kind they are of, and whatever is to find them: no chain finds more with a longer bootstrap.
+#[test]
+fn lights_without_power_are_told() {
+    let folder = TempDir::new().expect("a folder");
+    let black = image::Rgb32FImage::new(4, 2);
+    black.save(folder.path().join("black.exr")).expect("a picture");
+    for lights in [
+        "Point(position: (0, 0, 0), intensity: (0, 0, 0)), Sun(direction: (0, 1, 0), scale: 0)",
+        "Environment(file: \"black.exr\")",
+        "Environment(radiance: (0, 0, 0)), Sky(sun_direction: (0, 1, 0), scale: 0)",
+    ] {
+        let scene = BEHIND.replace("emission: (1, 1, 1)", "emission: (0, 0, 0)");
+        let scene = scene.replace("shapes:", &format!("lights: [{lights}], shapes:"));
+        std::fs::write(folder.path().join("dark.ron"), scene).expect("written");
+        let chains = ["pssmlt", "--groups", "2", "--chains", "8", "--bootstrap", "64"];
+        for technique in [&["pt"][..], &["lt"], &["bdpt"], &chains] {
+            let arguments = [&["render", "dark.ron", "--spp", "2", "--technique"], technique].concat();
+            let (told, listed) = warnings(&arguments, folder.path());
+            let [only] = listed.as_slice() else {
+                panic!("{listed:?}")
+            };
+            assert!(
+                only.contains("no light of this scene has any power") && only.contains("dark.ron:3:"),
+                "{only}"
+            );
+            assert!(!told.contains("--bootstrap"), "{told}");
+        }
+    }
+}
+
+/// Light of a point through a ball of glass.
+const BALL: &str = r#"(version: 1, settings: (max_depth: 8), camera: Perspective(origin: (0, 3, 5), target: (0, 1, 0), fov: 40),
+    film: (width: 8, height: 8),
+    materials: {"m": Diffuse(reflectance: (1, 1, 1)), "glass": Dielectric(interior_ior: 1.5)},
+    lights: [Spot(position: (0, 5, 0), target: (0, 0, 0), intensity: (9, 9, 9))],
+    shapes: [
+        (shape: Quad(corner: (-5, 0, 5), edge_u: (10, 0, 0), edge_v: (0, 0, -10)), material: "m"),
+        (shape: Sphere(center: (0, 1, 0), radius: 0.8), material: "glass"),
+    ])"#;
+
+/// Nothing is said of what finds all of it, and the way out where nothing does.
+#[test]
+fn light_of_points_through_glass_is_told_of_what_cannot_find_it() {
+    let folder = TempDir::new().expect("a folder");
+    std::fs::write(folder.path().join("ball.ron"), BALL).expect("written");
+    let aside = BALL.replace(
+        "origin: (0, 3, 5), target: (0, 1, 0), fov: 40",
+        "origin: (4, 1, 1), target: (4, 0, 0), fov: 20",
+    );
+    std::fs::write(folder.path().join("aside.ron"), aside).expect("written");
+    let chains = ["pssmlt", "--groups", "2", "--chains", "8", "--bootstrap", "64"];
+    let over_bdpt = [&chains[..], &["--base", "bdpt"]].concat();
+    let light = "cannot find light of points and single directions (lights[0] (Spot)) that comes to matt surfaces by way of \
+                 smooth ones (glass)";
+    for (technique, both) in [
+        (&["pt"][..], false),
+        (&["pt-reference"], false),
+        (&chains, false),
+        (&["bdpt"], true),
+        (&over_bdpt, true),
+    ] {
+        let of = |scene: &'static str| {
+            let arguments = [&["render", scene, "--spp", "1", "--technique"], technique].concat();
+            warnings(&arguments, folder.path()).0
+        };
+        let (ball, aside) = (of("ball.ron"), of("aside.ron"));
+        assert!(
+            ball.contains(light) && ball.contains("a small sphere that emits"),
+            "{technique:?}: {ball}"
+        );
+        assert_eq!(aside.contains(light), !both, "{technique:?}: {aside}");
+        if !both {
+            assert!(
+                aside.contains("bdpt, lt and pssmlt --base bdpt find it"),
+                "{technique:?}: {aside}"
+            );
+        }
+    }
+}
+
 #[test]
 fn a_picture_with_light_is_told_nothing_of_it() {
     let folder = TempDir::new().expect("a folder");

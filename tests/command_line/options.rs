@@ -12,7 +12,7 @@ use tempfile::TempDir;
 fn options_without_effect_are_refused_with_what_to_do() {
     let scene = cornell();
     let scene = scene.as_str();
-    let cases: [(&[&str], &[&str]); 17] = [
+    let cases: [(&[&str], &[&str]); 18] = [
         (
             &["render", scene, "--strategy", "1,2"],
             &["--strategy 1,2 has no effect with pt", "--technique bdpt"],
@@ -89,7 +89,11 @@ fn options_without_effect_are_refused_with_what_to_do() {
                 "--strategy",
                 "4294967295,4294967295",
             ],
-            &["8589934589 edges, and max_depth is 2"],
+            &["8589934589 edges, and no path has more than 1024", "at most 3"],
+        ),
+        (
+            &["render", scene, "--technique", "bdpt", "--strategy", "4294967295,1"],
+            &["4294967295 edges, and no path has more than 1024", "at most 17"],
         ),
         (
             &["render", scene, "--technique", "bdpt", "--strategy", "2,0"],
@@ -142,9 +146,47 @@ fn fewer_samples_than_a_saved_render_has_are_refused() {
         &saved,
     ]);
     assert!(
-        error.contains("the heuristic is power there, and balance here"),
+        error.contains("--heuristic is power there, and balance here"),
         "{error}"
     );
+}
+
+/// In the command line's own words.
+#[test]
+fn a_saved_render_goes_on_with_its_own_strategies_alone() {
+    let folder = TempDir::new().expect("a folder");
+    let scene = cornell();
+    let of = |more: &[&str]| {
+        let render = ["render", &scene, "--size", "8x8", "--spp", "2"];
+        let all = [&render[..], more].concat();
+        all.into_iter().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let saved = folder.path().join("saved").display().to_string();
+    let chains = [
+        "--technique",
+        "pssmlt",
+        "--groups",
+        "2",
+        "--chains",
+        "8",
+        "--bootstrap",
+        "64",
+    ];
+    let over_bdpt = [&chains[..], &["--base", "bdpt"]].concat();
+    let bdpt = ["--technique", "bdpt"];
+    let alone = ["--technique", "bdpt", "--strategy", "1,2"];
+    for (first, then, told) in [
+        (&chains[..], &over_bdpt[..], "--base is pt there, and bdpt here"),
+        (&over_bdpt, &chains, "--base is bdpt there, and pt here"),
+        (&bdpt, &alone, "--strategy is left out there, and 1,2 here"),
+        (&alone, &bdpt, "--strategy is 1,2 there, and left out here"),
+    ] {
+        let first = of(&[first, &["--save", &saved]].concat());
+        succeed(&first.iter().map(String::as_str).collect::<Vec<_>>(), folder.path());
+        let then = of(&[then, &["--resume", &saved]].concat());
+        let error = fail(&then.iter().map(String::as_str).collect::<Vec<_>>());
+        assert!(error.contains(told), "{told}: {error}");
+    }
 }
 
 fn picture(more: &[&str], folder: &Path) -> ExrPicture {

@@ -6,6 +6,9 @@
 //! lost: a rough white metal reflects less than it receives. Of light from straight above it loses 2 % at the roughness 0.2,
 //! and 1 − ln 2 is all that is left at the roughness 1 (GGX).
 //!
+//! Use it by the `distribution` of rough materials: `Ggx` has the long tails that most real surfaces have, `Beckmann` is the
+//! statistics of a Gaussian surface. Do not use it for smooth surfaces, which have models of their own.
+//!
 //! All is computed in `f64`. Nothing divides by the cosine of a direction, which at grazing angles cancels against
 //! masking: [`Microfacets::projected_area`] is their quotient in closed form. Directions here have z >= 0 and unit length;
 //! x and y are the directions along which the roughnesses `alpha_u` and `alpha_v` hold.

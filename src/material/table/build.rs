@@ -26,9 +26,7 @@ impl MaterialTable {
         };
         let first = self.append(format!("{name} (front)"), named(front).unwrap_or(&missing), false);
         let second = self.append(format!("{name} (back)"), named(back).unwrap_or(&missing), true);
-        let unsided = self.sides.len() as u32..first;
-        self.sides.extend(unsided.map(|material| [material; 2]));
-        self.sides.push([first, second]);
+        self.sides.put(first, second);
         first
     }
 
@@ -87,6 +85,22 @@ impl MaterialTable {
             } => {
                 let model = Dielectric {
                     relative_ior: interior_ior / exterior_ior,
+                    reflectance: *reflectance,
+                    transmittance: *transmittance,
+                };
+                add(&mut self.rows.dielectric, model)
+            }
+            // Facets between equal indices bend nothing: a rough interface is then a smooth one, and counts as one wherever
+            // it matters that light passes straight.
+            MaterialDescription::RoughDielectric {
+                interior_ior,
+                exterior_ior,
+                reflectance,
+                transmittance,
+                ..
+            } if interior_ior / exterior_ior == 1.0 => {
+                let model = Dielectric {
+                    relative_ior: 1.0,
                     reflectance: *reflectance,
                     transmittance: *transmittance,
                 };
@@ -212,6 +226,27 @@ mod tests {
             sample.map(|sample| sample.ratio.g)
         };
         assert_eq!([ratio(1), ratio(2)], [None, Some(0.7)]);
+    }
+
+    #[test]
+    fn a_rough_interface_between_equal_indices_is_a_smooth_one() {
+        let kind = |interior_ior| {
+            let rough = MaterialDescription::RoughDielectric {
+                interior_ior,
+                exterior_ior: 1.3,
+                distribution: Distribution::Ggx,
+                alpha: None,
+                alpha_u: Some(0.1),
+                alpha_v: Some(0.3),
+                reflectance: Rgb::ONE,
+                transmittance: Rgb::splat(0.5),
+            };
+            let mut table = MaterialTable::default();
+            let number = table.push("glass".into(), &rough, |_| None);
+            (table.kind(number), table.needs().tangents)
+        };
+        assert_eq!(kind(1.3), (MaterialKind::Dielectric, false));
+        assert_eq!(kind(1.300_001), (MaterialKind::RoughDielectric, true));
     }
 
     #[test]

@@ -58,7 +58,7 @@ pub enum FilterDescription {
         #[serde(default = "one_and_a_half")]
         #[schemars(with = "quantity::FilterRadius")]
         radius: f32,
-        /// Standard deviation in pixels, in [0.05, 16]. Default 0.5.
+        /// Standard deviation in pixels, in [0.05, 16], and at least 0.03 times the radius. Default 0.5.
         #[serde(default = "half")]
         #[schemars(with = "quantity::FilterSigma")]
         sigma: f32,

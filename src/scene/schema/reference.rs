@@ -19,6 +19,7 @@ pub const MANUALS: &[(&str, &str, &[&str])] = &[
     ("Material", "Dielectric", &["src/material/dielectric.rs"]),
     ("Material", "RoughDielectric", &["src/material/rough_dielectric.rs"]),
     ("Material", "Plastic", &["src/material/plastic.rs"]),
+    ("Material", "TwoSided", &["src/material/two_sided.rs"]),
     ("Light", "Point", &["src/light/point.rs"]),
     ("Light", "Spot", &["src/light/spot.rs"]),
     ("Light", "Directional", &["src/light/directional.rs"]),

@@ -1,5 +1,6 @@
 //! Checks of the `camera` and `film` blocks.
 
+use crate::film::SIGMA_PER_RADIUS;
 use crate::scene::at::{At, wide};
 use crate::scene::description::{
     CameraDescription, EXPOSURE, FilmDescription, FilterDescription, MAX_FILM_PIXELS, MAX_FILM_SIDE,
@@ -135,5 +136,19 @@ pub(super) fn film(at: &At, film: &FilmDescription) -> Result<(), SceneError> {
         FILTER_RADIUS[0],
         FILTER_RADIUS[1],
         "in pixels; less than half a pixel would lose light between pixels",
-    )
+    )?;
+    match film.filter {
+        FilterDescription::Gaussian { sigma, .. } => sigma_beside(&at.key("sigma"), sigma, radius),
+        FilterDescription::Box { .. } | FilterDescription::Tent { .. } => Ok(()),
+    }
+}
+
+/// A standard deviation that is neither too small nor too large for the radius beside it.
+fn sigma_beside(at: &At, sigma: f32, radius: f32) -> Result<(), SceneError> {
+    let [least, most] = SIGMA_PER_RADIUS;
+    if (least..=most).contains(&(sigma / radius)) {
+        return Ok(());
+    }
+    let message = format!("sigma: expected from {least} to {most} times the radius, {radius}, found {sigma}");
+    Err(at.error(message, "a third of the radius is common"))
 }
