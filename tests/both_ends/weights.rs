@@ -204,7 +204,7 @@ impl Pair<'_> {
             return None;
         }
         // Powers of ratios: products of densities are too large or small for their squares.
-        let exponent = self.heuristic.odds(2.0).log2();
+        let exponent = libm::log2(self.heuristic.odds(2.0));
         let odds = |p: &f64| self.heuristic.odds(p / densities[s]);
         let sum: f64 = densities.iter().map(odds).sum();
         Some(Weighed {
