@@ -7,14 +7,21 @@ use crate::plan::{Effect, Technique};
 
 /// What somebody who looks at `picture`, as `render` has it, has to know if there is no light in it, in words: what was seen,
 /// likely reasons, and what to try. `None` where there is light, where nothing in the scene emits any (its reader says so),
-/// where light was found that films could not hold, and of chains, which tell it of their bootstraps.
+/// where samples were not finite (which is told by itself), and of chains, which tell it of their bootstraps.
 #[must_use]
 pub fn blank(render: &dyn Rendering, picture: &Picture) -> Option<String> {
     let (plan, scene, counters) = (render.plan(), render.scene(), render.counters());
     let (chains, tally) = (plan.chains.is_some(), render.tally());
-    let uncounted = counters.non_finite + tally.non_finite + tally.vanished;
+    let uncounted = counters.non_finite + tally.non_finite;
     if chains || uncounted > 0 || !plan.has(Effect::Emission) || picture.rgb.iter().any(|rgb| !rgb.is_black()) {
         return None;
+    }
+    if tally.vanished > 0 {
+        return Some(format!(
+            "{} samples brought light that is too dim for the film beside what lights shine with, and none brought more: the \
+             picture is black, which it may not be. Another --seed may begin with samples that tell how bright the picture is",
+            tally.vanished
+        ));
     }
     let advice = match (plan.technique, plan.strategies.map(|strategies| strategies.weights)) {
         (_, Some(Weights::Only(s, t))) => {
