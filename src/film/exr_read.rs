@@ -165,7 +165,11 @@ fn in_words(error: exr::error::Error) -> String {
     match error {
         exr::error::Error::Invalid(cause) => damaged("OpenEXR", &cause),
         exr::error::Error::Io(cause) => damaged("OpenEXR", &cause.to_string()),
-        other => other.to_string(),
+        // Flags that are damaged are features that nobody supports.
+        exr::error::Error::NotSupported(cause) => {
+            format!("it is damaged, or OpenEXR of a kind that is not read here ({cause})")
+        }
+        exr::error::Error::Aborted => damaged("OpenEXR", ""),
     }
 }
 
