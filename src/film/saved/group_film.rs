@@ -105,8 +105,10 @@ mod tests {
             splat(1, 1e-20, 0.0, 0.0),
         ]);
         for _ in 0..9 {
-            film.add(&[splat(4, 1e19, 0.7, -1e6)]);
+            film.add(&[splat(4, 1e6, 0.7, -1e6)]);
         }
+        // Beyond the range, and out again.
+        film.add(&[splat(4, 1e19, 0.0, 0.0), splat(4, -1e19, 0.0, 0.0)]);
         film
     }
 
