@@ -7,7 +7,7 @@
 //! [`Scattered::reverse`](crate::material::Scattered::reverse) has the factor that makes them right.
 
 use super::columns::{VERTEX_DISCRETE, VERTEX_INFINITE};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// Where a vertex is, as far as measures need to know.
 #[derive(Clone, Copy, Debug)]
@@ -46,29 +46,42 @@ impl Site {
             return density;
         }
         if self.is_infinite() {
-            return density * facing(to.normal, self.normal);
+            return density * facing(to.normal, self.normal.as_dvec3());
         }
         let span = to.position.as_dvec3() - self.position.as_dvec3();
         let squared = span.length_squared();
         if squared == 0.0 {
             return 0.0;
         }
-        let cosine = if to.normal == Vec3::ZERO {
-            1.0
-        } else {
-            to.normal.as_dvec3().dot(span).abs() / squared.sqrt()
-        };
-        density * cosine / squared
+        density * facing(to.normal, span / squared.sqrt()) / squared
+    }
+
+    /// The same where a ray in the unit direction `ray`, there or back, found one vertex from the other: the cosine is the ray's.
+    ///
+    /// Rays start off their surfaces, and positions are rounded, so that the direction between positions is off by as much over
+    /// their distance. Mirrors and clear glass send light on at an angle that follows exactly from the one at which it came; where
+    /// an edge is short and light grazes, cosines from positions would not cancel along a path through them.
+    #[inline]
+    #[must_use]
+    pub fn arriving_along(&self, to: &Self, density: f32, ray: Vec3) -> f64 {
+        if to.is_infinite() || self.is_infinite() {
+            return self.arriving(to, density);
+        }
+        let squared = (to.position.as_dvec3() - self.position.as_dvec3()).length_squared();
+        if squared == 0.0 {
+            return 0.0;
+        }
+        f64::from(density) * facing(to.normal, ray.as_dvec3()) / squared
     }
 }
 
-/// |cos| between a normal and a direction; 1 for a point without a normal.
+/// |cos| between a normal and a unit direction; 1 for a point without a normal.
 #[inline]
-fn facing(normal: Vec3, direction: Vec3) -> f64 {
+fn facing(normal: Vec3, direction: DVec3) -> f64 {
     if normal == Vec3::ZERO {
         1.0
     } else {
-        f64::from(normal.dot(direction)).abs()
+        normal.as_dvec3().dot(direction).abs()
     }
 }
 
@@ -92,6 +105,21 @@ mod tests {
         assert!((from.arriving(&to, 3.0) - 3.0 * 0.8 / 4.0).abs() < 1e-7);
         let point = at(Vec3::new(0.0, 0.0, 2.0), Vec3::ZERO);
         assert_eq!(from.arriving(&point, 3.0), 0.75);
+    }
+
+    #[test]
+    fn cosines_along_a_ray_are_those_of_the_ray_and_not_of_rounded_positions() {
+        let ray = Vec3::new(0.0, 0.998_749_2, -0.05);
+        let (from, to) = (at(Vec3::ZERO, Vec3::Z), at(Vec3::new(0.0, 1e-3, -5.1e-5), Vec3::Z));
+        let squared = to.position.as_dvec3().length_squared();
+        for along in [ray, -ray] {
+            let density = from.arriving_along(&to, 1.0, along);
+            assert!((density * squared - f64::from(0.05_f32)).abs() < 1e-9, "{density}");
+        }
+        assert!(from.arriving(&to, 1.0) * squared > 0.0508);
+        let point = at(to.position, Vec3::ZERO);
+        assert!((from.arriving_along(&point, 1.0, ray) * squared - 1.0).abs() < 1e-12);
+        assert_eq!(to.arriving_along(&to, 1.0, ray), 0.0);
     }
 
     #[test]

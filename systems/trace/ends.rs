@@ -97,7 +97,7 @@ impl EndColumns<'_> {
         };
         let (here, before) = (site(depth), site(depth - 1));
         let from_light = place.starts_at_light(path);
-        let mut forward = before.arriving(&here, densities.at(at(depth - 1)));
+        let mut forward = before.arriving_along(&here, densities.at(at(depth - 1)), direction);
         let start = at(0);
         if from_light && depth == 1 {
             // How strategy s = 1 would draw the light's end from here; what others do differently goes to this vertex.
@@ -105,7 +105,7 @@ impl EndColumns<'_> {
             let number = self.lights.at(start);
             if !lights.is_delta(number) {
                 let sampled = lights.density(number, here.position, before.position, before.normal);
-                let sampled = here.arriving(&before, sampled);
+                let sampled = here.arriving_along(&before, sampled, direction);
                 if sampled > 0.0 {
                     forward *= self.forwards.at(start) / sampled;
                     self.forwards.put(start, sampled);
@@ -115,7 +115,8 @@ impl EndColumns<'_> {
         self.forwards.put(vertex, forward);
         let mut odds = 0.0;
         if let Some(k) = depth.checked_sub(2) {
-            let reverse = before.arriving(&site(k), self.reverses.at(at(depth - 1)));
+            let ray = self.arrivals.at(at(depth - 1));
+            let reverse = before.arriving_along(&site(k), self.reverses.at(at(depth - 1)), ray);
             let first = from_light && !scene.lights.is_delta(self.lights.at(start));
             let connects = |depth: u32| kinds.at(at(depth)) != VERTEX_DISCRETE;
             let tail_before = self.tails.at(at(depth - 1));

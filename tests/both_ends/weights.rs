@@ -29,13 +29,10 @@ use std::sync::Arc;
 const SIZE: u32 = 12;
 const MAX_DEPTH: u32 = 6;
 const STEPS: u64 = 20;
-/// How far the ratios of densities may be off, relatively, for roundings to f32. The odds are their powers β, so that those of the
-/// power heuristic, and the weights with them, are off by twice as much for the same path.
+/// How far weights may be off, relatively, for roundings of densities, ratios and throughputs to f32. What rounding does to the
+/// directions of edges comes on top, path by path: the sum of what the weight changes by when each edge is turned by as much
+/// ([`WholePath::turned`]). Most edges are long, and it is little.
 const TOLERANCE: f64 = 1e-4;
-/// Positions rounded to f32 turn an edge by 4e-7 over its length here, and what arrives along it by as much over the cosine there;
-/// densities change by some times that. An edge whose length times the smaller cosine at its ends is this, in scene units, adds as
-/// much again to what is tolerated.
-const SHORT_EDGE: f64 = 0.01;
 
 const CAMERAS: [(&str, &str); 3] = [
     (
@@ -132,6 +129,17 @@ struct Weighed {
     tolerance: f64,
 }
 
+/// Errors of smaller weights are beside this.
+const LEAST_WEIGHT: f64 = 1e-6;
+
+impl Weighed {
+    /// The relative error.
+    fn error(&self) -> f64 {
+        let error = (self.given - self.expected).abs() / self.expected.max(LEAST_WEIGHT);
+        if error.is_nan() { f64::INFINITY } else { error }
+    }
+}
+
 /// A pair of subpaths.
 struct Pair<'a> {
     scene: &'a Scene,
@@ -198,20 +206,31 @@ impl Pair<'_> {
             light,
             ball: GLASS,
             mistake,
+            turned: None,
         };
-        let densities = path.densities();
-        if mistake != Mistake::None && densities[s] == 0.0 {
-            return None;
+        let expected = self.expected(&path, s)?;
+        let mut weighed = Weighed {
+            given: f64::from(weighted) / f64::from(alone),
+            expected,
+            tolerance: TOLERANCE,
+        };
+        // What turned edges change is only asked for where it may matter.
+        if weighed.error() > 0.25 * TOLERANCE {
+            let turned = path.turned().filter_map(|turned| self.expected(&turned, s));
+            weighed.tolerance += turned
+                .map(|turned| (turned - expected).abs() / expected.max(LEAST_WEIGHT))
+                .sum::<f64>();
         }
+        Some(weighed)
+    }
+
+    /// The weight of strategy number `s` by the densities of all; `None` where it cannot find the path.
+    fn expected(&self, path: &WholePath<'_>, s: usize) -> Option<f64> {
+        let densities = path.densities();
         // Powers of ratios: products of densities are too large or small for their squares.
-        let exponent = libm::log2(self.heuristic.odds(2.0));
         let odds = |p: &f64| self.heuristic.odds(p / densities[s]);
         let sum: f64 = densities.iter().map(odds).sum();
-        Some(Weighed {
-            given: f64::from(weighted) / f64::from(alone),
-            expected: 1.0 / sum,
-            tolerance: exponent * TOLERANCE * (1.0 + path.edges().map(|edge| SHORT_EDGE / edge).sum::<f64>()),
-        })
+        (path.mistake == Mistake::None || densities[s] > 0.0).then_some(1.0 / sum)
     }
 }
 
@@ -236,8 +255,7 @@ struct Found {
 
 impl Found {
     fn add(&mut self, weighed: &Weighed) {
-        let error = (weighed.given - weighed.expected).abs() / weighed.expected.max(1e-6);
-        let error = if error.is_nan() { f64::INFINITY } else { error };
+        let error = weighed.error();
         self.paths += 1;
         self.shared += u32::from((0.001..0.999).contains(&weighed.expected));
         self.error = self.error.max(error);

@@ -125,8 +125,9 @@ impl Join<'_> {
                 return odds_behind(heuristic, &self.camera[..t], f64::from(emission.position), 0.0, false);
             }
             let sampled = lights.density(light, from.surface.position, x.surface.position, x.surface.normal);
-            let sampled = before.arriving(&here, sampled);
-            let going_on = here.arriving(&before, emission.direction) * (f64::from(emission.position) / sampled);
+            let sampled = before.arriving_along(&here, sampled, towards);
+            let back = here.arriving_along(&before, emission.direction, towards);
+            let going_on = back * (f64::from(emission.position) / sampled);
             odds_behind(heuristic, &self.camera[..t], sampled, going_on, false)
         });
         x.throughput * emitted * weight
@@ -260,7 +261,9 @@ impl Join<'_> {
 /// p← of the last vertex but one, where going back to it has the density `back`.
 fn before(subpath: &[EndVertex], back: f32) -> f64 {
     match subpath {
-        [.., previous, last] => last.site().arriving(&previous.site(), back),
+        [.., previous, last] => last
+            .site()
+            .arriving_along(&previous.site(), back, last.surface.direction),
         _ => 0.0,
     }
 }
