@@ -46,6 +46,10 @@ pub(super) struct Departure {
     pub densities: EmissionDensities,
 }
 
+/// How near to a point light a surface is that is called brightly lit, relative to the scene's radius: films hold what is
+/// 2²⁰ times as near as that, and what is far keeps all its bits.
+const NEAR_POINTS: f32 = 1.0 / 256.0;
+
 impl Light {
     /// The name in scene files.
     #[must_use]
@@ -99,11 +103,11 @@ impl Light {
         self.power(BoundingSphere::default()) <= 0.0
     }
 
-    /// A radiance that pictures of the light have: its own, or what a white matt surface that faces the light has, a
-    /// radius of the scene away from a point.
+    /// A radiance that pictures of the light have: its own, or what a white matt surface that faces the light has,
+    /// [`NEAR_POINTS`] of the scene's radius away from a point.
     pub(super) fn max_radiance(&self, scene: BoundingSphere) -> f32 {
-        let reflected = |irradiance: f32| irradiance * std::f32::consts::FRAC_1_PI;
-        let squared = scene.radius * scene.radius;
+        let reflected = |irradiance: f32| irradiance.min(f32::MAX) * std::f32::consts::FRAC_1_PI;
+        let squared = (scene.radius * NEAR_POINTS) * (scene.radius * NEAR_POINTS);
         match self {
             Self::Point(light) => reflected(light.intensity.max_channel() / squared),
             Self::Spot(light) => reflected(light.intensity.max_channel() / squared),

@@ -62,7 +62,7 @@ fn neither_size_nor_distance_of_what_shines_cuts_light_off() {
     let scenes = [
         ("a point over a small floor", floor(10.0, &near, "")),
         ("a point over a large floor", floor(3e3, &near, "")),
-        ("a point over a plain", floor(3e4, &near, "")),
+        ("a point over a plain", floor(1e6, &point("0.5", "1"), "")),
         (FAR, floor(20.0, &point("1e6", "1e12"), "")),
         (
             "a point so dim that nobody would see it",
@@ -85,7 +85,8 @@ fn neither_size_nor_distance_of_what_shines_cuts_light_off() {
             say(&format!("{name}, {technique}: {ratio:.4} of pt's light, {tally:?}"));
             assert_eq!(tally.saturated, 0, "{name}, {technique}");
             // What is seen of a plain at its horizon is truly nothing beside the rest.
-            assert!(tally.vanished <= 20, "{name}, {technique}: {tally:?}");
+            let samples = 1024 * u64::from(SIZE * SIZE);
+            assert!(tally.vanished < samples / 1000, "{name}, {technique}: {tally:?}");
             assert!((0.97..1.03).contains(&ratio), "{name}, {technique}: {ratio}");
         }
     }

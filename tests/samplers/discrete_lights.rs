@@ -147,11 +147,11 @@ fn discrete_lights_are_met_by_nothing() {
     }
 }
 
-/// The film's unit: the same order as what the light makes of a white surface in the scene.
+/// The film's unit: the same order as what the light makes of a white surface in the scene, near the light if it has a place.
 #[test]
 fn lights_that_cannot_be_seen_count_by_what_they_light() {
     let brightest = |light: Light| f64::from(alone(light).max_radiance());
-    let expected = 3.0 / 25.0 / (0.5 * TAU);
+    let expected = 3.0 * (256.0 * 256.0) / 25.0 / (0.5 * TAU);
     assert!((brightest(point()) / expected - 1.0).abs() < 1e-6);
     assert!((brightest(spots().remove(0).2) / expected - 1.0).abs() < 1e-6);
     assert!((brightest(parallel()) / (3.0 / (0.5 * TAU)) - 1.0).abs() < 1e-6);
