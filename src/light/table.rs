@@ -176,6 +176,13 @@ impl LightTable {
         })
     }
 
+    /// A discrete light as seen from `from`, with the probability of choosing it; `None` for any other light, and where none of
+    /// its light goes.
+    #[must_use]
+    pub fn seen(&self, light: u32, from: Vec3) -> Option<LightSample> {
+        self.is_delta(light).then(|| self.sample_other(light, from, [0.0; 2]))?
+    }
+
     /// The density, per solid angle at `from`, with which [`sample`](Self::sample) finds the point `position` with the
     /// unit geometric normal `normal` on emitter `light`. For a light at infinity `position` does not matter, and `normal`
     /// is the direction in which the light travels. Zero for discrete lights: no other way leads to them.

@@ -14,7 +14,7 @@
 //! a mirror image over a colour (`Plastic`). Reflectance is that of Fresnel's equations for light without polarisation (Born
 //! and Wolf 1999, §14.2).
 
-use super::{MaterialKind, Model, ScatterDraw, Scattered, Transport, fresnel};
+use super::{DiscreteLobe, MaterialKind, Model, ScatterDraw, Scattered, Transport, fresnel};
 use crate::color::Rgb;
 use crate::texture::{Color, Shading};
 use glam::Vec3;
@@ -37,8 +37,13 @@ impl Model for Conductor {
 
     /// The mirrored direction; `None` on the black back of a one-sided surface.
     #[inline]
-    fn sample(&self, at: &Shading<'_>, wi: Vec3, _: ScatterDraw, _: Transport) -> Option<Scattered> {
-        if wi.z == 0.0 || (wi.z < 0.0 && !self.two_sided) {
+    fn sample(&self, at: &Shading<'_>, wi: Vec3, _: ScatterDraw, transport: Transport) -> Option<Scattered> {
+        self.discrete(at, wi, DiscreteLobe::Reflection, transport)
+    }
+
+    #[inline]
+    fn discrete(&self, at: &Shading<'_>, wi: Vec3, lobe: DiscreteLobe, _: Transport) -> Option<Scattered> {
+        if lobe == DiscreteLobe::Refraction || wi.z == 0.0 || (wi.z < 0.0 && !self.two_sided) {
             return None;
         }
         let reflected = fresnel::conductor_rgb(wi.z.abs(), self.eta, self.k);

@@ -16,7 +16,8 @@
 //! colour here but that of its surface. Reflectance is that of Fresnel's equations for light without polarisation (Born and
 //! Wolf 1999, §1.5.2).
 
-use super::{MaterialKind, Model, ScatterDraw, Scattered, Transport, fresnel};
+use super::fresnel::{self, DielectricFresnel};
+use super::{DiscreteLobe, MaterialKind, Model, ScatterDraw, Scattered, Transport};
 use crate::color::Rgb;
 use crate::texture::Shading;
 use glam::Vec3;
@@ -39,45 +40,79 @@ impl Model for Dielectric {
     /// grazing incidence.
     #[inline]
     fn sample(&self, _: &Shading<'_>, wi: Vec3, draw: ScatterDraw, transport: Transport) -> Option<Scattered> {
-        if wi.z == 0.0 {
-            return None;
+        let side = self.side(wi)?;
+        Some(if draw.direction[0] < side.fresnel.reflectance {
+            self.reflect(wi, &side)
+        } else {
+            self.refract(wi, &side, transport)
+        })
+    }
+
+    #[inline]
+    fn discrete(&self, _: &Shading<'_>, wi: Vec3, lobe: DiscreteLobe, transport: Transport) -> Option<Scattered> {
+        let side = self.side(wi)?;
+        match lobe {
+            DiscreteLobe::Reflection => (side.fresnel.reflectance > 0.0).then(|| self.reflect(wi, &side)),
+            DiscreteLobe::Refraction => (side.fresnel.reflectance < 1.0).then(|| self.refract(wi, &side, transport)),
         }
-        // From the side the path comes from to the other.
+    }
+}
+
+/// The interface as a path meets it.
+struct Side {
+    /// Index of the side beyond over that of the side where the path comes from.
+    relative_ior: f32,
+    fresnel: DielectricFresnel,
+}
+
+impl Dielectric {
+    /// `None` exactly at grazing incidence.
+    #[inline]
+    fn side(&self, wi: Vec3) -> Option<Side> {
         let relative_ior = if wi.z > 0.0 {
             self.relative_ior
         } else {
             1.0 / self.relative_ior
         };
-        let fresnel = fresnel::dielectric(wi.z.abs(), relative_ior);
-        if draw.direction[0] < fresnel.reflectance {
-            return Some(Scattered {
-                wo: Vec3::new(-wi.x, -wi.y, wi.z),
-                ratio: self.reflectance,
-                density: fresnel.reflectance,
-                reverse: fresnel.reflectance,
-                discrete: true,
-                relative_ior: 1.0,
-            });
+        (wi.z != 0.0).then(|| Side {
+            relative_ior,
+            fresnel: fresnel::dielectric(wi.z.abs(), relative_ior),
+        })
+    }
+
+    #[inline]
+    fn reflect(&self, wi: Vec3, side: &Side) -> Scattered {
+        Scattered {
+            wo: Vec3::new(-wi.x, -wi.y, wi.z),
+            ratio: self.reflectance,
+            density: side.fresnel.reflectance,
+            reverse: side.fresnel.reflectance,
+            discrete: true,
+            relative_ior: 1.0,
         }
-        let inverse = 1.0 / relative_ior;
+    }
+
+    #[inline]
+    fn refract(&self, wi: Vec3, side: &Side, transport: Transport) -> Scattered {
+        let inverse = 1.0 / side.relative_ior;
         let wo = Vec3::new(
             -wi.x * inverse,
             -wi.y * inverse,
-            fresnel.cos_transmitted.copysign(-wi.z),
+            side.fresnel.cos_transmitted.copysign(-wi.z),
         );
-        let probability = 1.0 - fresnel.reflectance;
+        let probability = 1.0 - side.fresnel.reflectance;
         let scale = match transport {
             // Radiance spreads over a larger or smaller solid angle.
             Transport::Radiance => inverse * inverse,
             Transport::Importance => 1.0,
         };
-        Some(Scattered {
+        Scattered {
             wo: wo.normalize(),
             ratio: self.transmittance * scale,
             density: probability,
-            reverse: probability * (wi.z.abs() / fresnel.cos_transmitted) * (inverse * inverse),
+            reverse: probability * (wi.z.abs() / side.fresnel.cos_transmitted) * (inverse * inverse),
             discrete: true,
-            relative_ior,
-        })
+            relative_ior: side.relative_ior,
+        }
     }
 }

@@ -25,5 +25,5 @@ pub mod two_sided;
 
 pub use frame::Frame;
 pub(crate) use list::for_each_material;
-pub use model::{Evaluated, Model, ScatterDraw, Scattered, Transport};
+pub use model::{DiscreteLobe, Evaluated, Model, ScatterDraw, Scattered, Transport};
 pub use table::{InTable, KINDS, MaterialKind, MaterialTable, Needs};

@@ -25,6 +25,15 @@ pub struct ScatterDraw {
     pub lobe: f32,
 }
 
+/// Which of the directions that discrete scattering leads to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DiscreteLobe {
+    /// Mirrored: the path stays on its side.
+    Reflection,
+    /// Bent: the path goes through.
+    Refraction,
+}
+
 /// A sampled direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scattered {
@@ -80,6 +89,13 @@ pub trait Model: Copy + Debug + Send + Sync + 'static {
     /// Draws the direction in which a path that came from `wi` goes on; `None` where it is absorbed.
     #[must_use]
     fn sample(&self, at: &Shading<'_>, wi: Vec3, draw: ScatterDraw, transport: Transport) -> Option<Scattered>;
+
+    /// What [`sample`](Self::sample) returns where it draws this discrete lobe; `None` where it never does.
+    #[must_use]
+    fn discrete(&self, at: &Shading<'_>, wi: Vec3, lobe: DiscreteLobe, transport: Transport) -> Option<Scattered> {
+        let _ = (at, wi, lobe, transport);
+        None
+    }
 
     /// Value and densities for a pair of directions: of all lobes that have a density. Zero for models that have none.
     #[must_use]

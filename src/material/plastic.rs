@@ -20,7 +20,7 @@
 //! ([`diffuse_reflectance`](super::fresnel::diffuse_reflectance)); ρ F̄ is F̄ unless `nonlinear`. With ρ = 1 nothing is lost.
 //! The lobe number chooses between mirror and base, in proportion to what each reflects.
 
-use super::{Evaluated, MaterialKind, Model, ScatterDraw, Scattered, Transport, fresnel};
+use super::{DiscreteLobe, Evaluated, MaterialKind, Model, ScatterDraw, Scattered, Transport, fresnel};
 use crate::color::Rgb;
 use crate::sampling::warp;
 use crate::texture::{Color, Shading};
@@ -48,6 +48,21 @@ struct Lobes {
     reflected: f64,
     /// Probability of following the mirror.
     mirror: f32,
+}
+
+impl Lobes {
+    /// The mirror image, of this scale.
+    #[inline]
+    fn reflect(&self, specular: Rgb, wi: Vec3) -> Scattered {
+        Scattered {
+            wo: Vec3::new(-wi.x, -wi.y, wi.z),
+            ratio: specular * (self.reflected / f64::from(self.mirror)) as f32,
+            density: self.mirror,
+            reverse: self.mirror,
+            discrete: true,
+            relative_ior: 1.0,
+        }
+    }
 }
 
 impl Plastic {
@@ -109,14 +124,7 @@ impl Model for Plastic {
         let (specular, base) = (self.specular_reflectance.at(at), self.base(at));
         let lobes = self.lobes(specular, base, wi.z.abs())?;
         if draw.lobe < lobes.mirror {
-            return Some(Scattered {
-                wo: Vec3::new(-wi.x, -wi.y, wi.z),
-                ratio: specular * (lobes.reflected / f64::from(lobes.mirror)) as f32,
-                density: lobes.mirror,
-                reverse: lobes.mirror,
-                discrete: true,
-                relative_ior: 1.0,
-            });
+            return Some(lobes.reflect(specular, wi));
         }
         let mut wo = warp::cosine_hemisphere(draw.direction);
         let outgoing = self.lobes(specular, base, wo.z)?;
@@ -132,6 +140,16 @@ impl Model for Plastic {
             relative_ior: 1.0,
         }
         .if_representable()
+    }
+
+    #[inline(never)]
+    fn discrete(&self, at: &Shading<'_>, wi: Vec3, lobe: DiscreteLobe, _: Transport) -> Option<Scattered> {
+        if lobe == DiscreteLobe::Refraction || wi.z == 0.0 || (wi.z < 0.0 && !self.two_sided) {
+            return None;
+        }
+        let specular = self.specular_reflectance.at(at);
+        let lobes = self.lobes(specular, self.base(at), wi.z.abs())?;
+        (lobes.mirror > 0.0).then(|| lobes.reflect(specular, wi))
     }
 
     #[inline(never)]

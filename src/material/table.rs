@@ -10,7 +10,7 @@ use super::plastic::Plastic;
 use super::rough_conductor::RoughConductor;
 use super::rough_dielectric::RoughDielectric;
 use super::two_sided::Sides;
-use super::{Evaluated, Model, ScatterDraw, Scattered, Transport};
+use super::{DiscreteLobe, Evaluated, Model, ScatterDraw, Scattered, Transport};
 use crate::texture::{Shading, TextureTable};
 use glam::{Vec2, Vec3};
 
@@ -66,6 +66,17 @@ macro_rules! define {
                 let at = self.shading(uv);
                 match kind {
                     $(MaterialKind::$Kind => self.rows.$table[row as usize].sample(&at, wi, draw, transport),)*
+                }
+            }
+
+            /// How a discrete lobe of a material scatters. See [`Model::discrete`].
+            #[inline]
+            #[must_use]
+            pub fn discrete(&self, material: u32, uv: Vec2, wi: Vec3, lobe: DiscreteLobe, transport: Transport) -> Option<Scattered> {
+                let (kind, row) = self.index[material as usize];
+                let at = self.shading(uv);
+                match kind {
+                    $(MaterialKind::$Kind => self.rows.$table[row as usize].discrete(&at, wi, lobe, transport),)*
                 }
             }
 

@@ -13,6 +13,7 @@ mod primary;
 pub mod roulette;
 mod scatterer;
 mod states;
+pub mod whole;
 
 pub use columns::*;
 pub use draws::{

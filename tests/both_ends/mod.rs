@@ -14,6 +14,7 @@ mod plans;
 mod range;
 mod strategies;
 mod weights;
+mod whole;
 
 #[path = "../../examples/agreement/mod.rs"]
 mod agreement;

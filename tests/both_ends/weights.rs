@@ -27,14 +27,14 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 const SIZE: u32 = 12;
-const MAX_DEPTH: u32 = 6;
+pub(super) const MAX_DEPTH: u32 = 6;
 const STEPS: u64 = 20;
 /// How far weights may be off, relatively, for roundings of densities, ratios and throughputs to f32. What rounding does to the
 /// directions of edges comes on top, path by path: the sum of what the weight changes by when each edge is turned by as much
 /// ([`WholePath::turned`]). Most edges are long, and it is little.
 const TOLERANCE: f64 = 1e-4;
 
-const CAMERAS: [(&str, &str); 3] = [
+pub(super) const CAMERAS: [(&str, &str); 3] = [
     (
         "a pinhole",
         "Perspective(origin: (0, 1.2, 4), target: (0, 0.9, 0), fov: 55)",
@@ -54,7 +54,7 @@ const TRIANGLES: &str = r#"(shape: Quad(corner: (-1, 3, -1), edge_u: (2, 0, 0.3)
 const BALL: &str = r#"(shape: Sphere(center: (0.4, 2.4, 0.3), radius: 0.6), material: "white", emission: (9, 9, 9)),"#;
 
 /// A light by its name, shape and words.
-const LIGHTS: [(&str, &str, &str); 5] = [
+pub(super) const LIGHTS: [(&str, &str, &str); 5] = [
     ("triangles", TRIANGLES, ""),
     ("a round light", BALL, ""),
     ("a point", "", "Point(position: (0.5, 2.6, 1), intensity: (5, 5, 5))"),
@@ -69,7 +69,7 @@ const LIGHTS: [(&str, &str, &str); 5] = [
 const GLASS: (DVec3, f64, f64) = (DVec3::new(0.1, 0.65, 1.0), 0.6, 1.5);
 
 /// Open, so that lights at infinity are met.
-fn scene(camera: &str, light: &str, lights: &str) -> Arc<Scene> {
+pub(super) fn scene(camera: &str, light: &str, lights: &str) -> Arc<Scene> {
     inline(
         &format!(
             r#"(version: 1, settings: (max_depth: {MAX_DEPTH}), camera: {camera}, film: (width: {SIZE}, height: {SIZE}),
@@ -100,7 +100,7 @@ fn scene(camera: &str, light: &str, lights: &str) -> Arc<Scene> {
 }
 
 /// A light sampled by strategy s = 1, as a vertex.
-fn light_end(scene: &Scene, from: Vec3, draw: LightDraw) -> Option<(Node, u32)> {
+pub(super) fn light_end(scene: &Scene, from: Vec3, draw: LightDraw) -> Option<(Node, u32)> {
     let sample = scene.lights.sample(from, draw.choice, draw.point)?;
     let surface = Scatterer {
         position: sample.position,
@@ -141,16 +141,16 @@ impl Weighed {
 }
 
 /// A pair of subpaths.
-struct Pair<'a> {
-    scene: &'a Scene,
-    heuristic: Heuristic,
-    camera: &'a [EndVertex],
-    light: &'a [EndVertex],
+pub(super) struct Pair<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) heuristic: Heuristic,
+    pub(super) camera: &'a [EndVertex],
+    pub(super) light: &'a [EndVertex],
 }
 
 impl Pair<'_> {
     /// What strategy (s, t) brings.
-    fn value(&self, s: usize, t: usize, draw: LightDraw, weights: Weights) -> Rgb {
+    pub(super) fn value(&self, s: usize, t: usize, draw: LightDraw, weights: Weights) -> Rgb {
         let join = Join {
             scene: self.scene,
             strategies: Strategies {
@@ -169,14 +169,17 @@ impl Pair<'_> {
         offer.map_or(Rgb::BLACK, |offer| offer.value)
     }
 
-    /// The weight that strategy (s, t) gets, against what the densities say of it; `None` where it brings nothing.
-    fn weigh(&self, s: usize, t: usize, draw: LightDraw, mistake: Mistake) -> Option<Weighed> {
+    /// Whether strategy (s, t) joins vertices that can be joined.
+    pub(super) fn connects(&self, s: usize, t: usize) -> bool {
         let connects = |vertex: &EndVertex| {
             vertex.kind != VERTEX_INFINITE && !self.scene.materials.kind(vertex.surface.material).is_discrete()
         };
-        let camera_connects = s == 0 || t == 1 || connects(&self.camera[t - 1]);
-        let light_connects = s < 2 || connects(&self.light[s - 1]);
-        if !camera_connects || !light_connects {
+        (s == 0 || t == 1 || connects(&self.camera[t - 1])) && (s < 2 || connects(&self.light[s - 1]))
+    }
+
+    /// The weight that strategy (s, t) gets, against what the densities say of it; `None` where it brings nothing.
+    fn weigh(&self, s: usize, t: usize, draw: LightDraw, mistake: Mistake) -> Option<Weighed> {
+        if !self.connects(s, t) {
             return None;
         }
         let alone = self.value(s, t, draw, Weights::Only(s as u32, t as u32)).max_channel();
@@ -234,7 +237,7 @@ impl Pair<'_> {
     }
 }
 
-fn light_draw(stream: &mut Stream) -> LightDraw {
+pub(super) fn light_draw(stream: &mut Stream) -> LightDraw {
     LightDraw {
         choice: stream.next_f64(),
         point: stream.next_pair(),
@@ -265,8 +268,8 @@ impl Found {
 
 type Strategy = (usize, usize);
 
-/// The paths of some steps of a scene, strategy by strategy.
-fn look(scene: &Arc<Scene>, heuristic: Heuristic, mistake: Mistake) -> BTreeMap<Strategy, Found> {
+/// Visits the pairs of subpaths of some steps of a scene.
+pub(super) fn for_each_pair(scene: &Arc<Scene>, heuristic: Heuristic, mut visit: impl FnMut(&Pair<'_>)) {
     let options = PlanOptions {
         tile_size: Some(SIZE * SIZE),
         heuristic,
@@ -274,8 +277,6 @@ fn look(scene: &Arc<Scene>, heuristic: Heuristic, mistake: Mistake) -> BTreeMap<
     };
     let plan = Plan::with(scene, Technique::Bdpt, &options).expect("a plan without chains");
     let mut render = SplatRender::new(Arc::clone(scene), plan, 1, 1).expect("a small film");
-    let mut found: BTreeMap<Strategy, Found> = BTreeMap::new();
-    let mut stream = stream(1);
     for _ in 0..STEPS {
         render.burst(1, &|_| {});
         render.for_each_world(&mut |_, world| {
@@ -283,24 +284,39 @@ fn look(scene: &Arc<Scene>, heuristic: Heuristic, mistake: Mistake) -> BTreeMap<
             for chain in 0..place.chains as usize {
                 let camera = subpath(world, chain);
                 let light = subpath(world, place.lights_from as usize + chain);
-                let pair = Pair {
+                visit(&Pair {
                     scene,
                     heuristic,
                     camera: &camera,
                     light: &light,
-                };
-                let strategies = (1..=camera.len()).flat_map(|t| {
-                    let longest = (MAX_DEPTH as usize + 1 - t).min(light.len());
-                    (0..=longest).map(move |s| (s, t)).filter(|(s, t)| s + t > 1)
                 });
-                for (s, t) in strategies {
-                    if let Some(weighed) = pair.weigh(s, t, light_draw(&mut stream), mistake) {
-                        found.entry((s, t)).or_default().add(&weighed);
-                    }
-                }
             }
         });
     }
+}
+
+impl Pair<'_> {
+    /// The strategies that can join these subpaths.
+    pub(super) fn strategies(&self) -> impl Iterator<Item = Strategy> {
+        let light = self.light.len();
+        (1..=self.camera.len()).flat_map(move |t| {
+            let longest = (MAX_DEPTH as usize + 1 - t).min(light);
+            (0..=longest).map(move |s| (s, t)).filter(|(s, t)| s + t > 1)
+        })
+    }
+}
+
+/// The paths of some steps of a scene, strategy by strategy.
+fn look(scene: &Arc<Scene>, heuristic: Heuristic, mistake: Mistake) -> BTreeMap<Strategy, Found> {
+    let mut found: BTreeMap<Strategy, Found> = BTreeMap::new();
+    let mut stream = stream(1);
+    for_each_pair(scene, heuristic, |pair| {
+        for (s, t) in pair.strategies() {
+            if let Some(weighed) = pair.weigh(s, t, light_draw(&mut stream), mistake) {
+                found.entry((s, t)).or_default().add(&weighed);
+            }
+        }
+    });
     found
 }
 

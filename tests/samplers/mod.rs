@@ -6,6 +6,7 @@ mod cameras;
 mod diffuse;
 mod discrete;
 mod discrete_lights;
+mod discrete_lobes;
 mod emission;
 mod emitters;
 mod infinite;
