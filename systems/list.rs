@@ -53,6 +53,19 @@ list! {
     /// Copies the coordinates of their vertices.
     DRAW_IDENTITIES = DRAW, propose::draw_identities;
 
+    /// Chooses a length and a strategy for chains that try a new path.
+    PROPOSE_NEW_PATHS = PROPOSE, propose::propose_new_paths, in_phases(Phases::ALL);
+    /// Writes the densities of new paths.
+    WEIGH_NEW_PATHS = EVALUATE, propose::weigh_new_paths, in_phases(Phases::ALL);
+    /// Chooses which part of a path is replaced by what.
+    PROPOSE_BIDIRECTIONAL = PROPOSE, propose::propose_bidirectional;
+    /// Writes the densities of the parts.
+    WEIGH_BIDIRECTIONAL = EVALUATE, propose::weigh_bidirectional;
+    /// Makes room for the subpaths that mutations ask for.
+    MAKE_ROOM = PROPOSE, propose::make_room, in_phases(Phases::ALL);
+    /// Copies what proposals keep of paths, and starts what is new.
+    START_PATHS = PROPOSE, propose::start_paths, in_phases(Phases::ALL);
+
     /// Gives every chain its pixel and its random streams.
     ASSIGN_PIXELS = PROPOSE, propose::assign_pixels;
     /// Starts a path on the lens of every chain.
@@ -72,6 +85,14 @@ list! {
     TRANSMIT_SEGMENTS = Place::Loop(TraceStep::Transmit), trace::transmit_segments, tracing(Traces::Segments);
     /// Plays Russian roulette and lists who goes on.
     CONTINUE_PATHS = Place::Loop(TraceStep::Continue), trace::continue_paths;
+    /// Lists who goes on, where subpaths end as mutations say.
+    CONTINUE_TO_STOP = Place::Loop(TraceStep::Continue), trace::continue_to_stop;
+    /// Writes the segments that complete whole paths.
+    JOIN_PATHS = TRACE, trace::join_paths;
+    /// Traces those segments.
+    TRANSMIT_PATHS = TRACE, trace::transmit_connections, tracing(Traces::Segments);
+    /// Writes what whole paths bring, and their densities.
+    EVALUATE_PATHS = EVALUATE, evaluate::evaluate_paths, in_phases(Phases::ALL);
     /// Starts a subpath on a light for every chain.
     START_LIGHT_PATHS = PROPOSE, propose::start_light_paths, in_phases(Phases::ALL);
     /// Lists every subpath for the coordinates of its start.
@@ -114,6 +135,8 @@ list! {
     DECIDE = ACCEPT, accept::decide;
     /// Takes the coordinates of accepted proposals over.
     TAKE_COORDINATES = ACCEPT, accept::take_coordinates;
+    /// Takes the paths of accepted proposals over.
+    TAKE_PATHS = ACCEPT, accept::take_paths, in_phases(TAKES);
     /// Counts where chains are.
     COUNT_VISITS = ACCEPT, accept::count_visits, in_phases(Phases::STEP);
     /// Adds both states of every decision to the film, by expectation.

@@ -42,6 +42,7 @@ pub mod bootstrap;
 pub mod chains;
 pub mod evaluate;
 pub mod list;
+pub mod paths;
 pub mod propose;
 pub mod splat;
 pub mod tile;

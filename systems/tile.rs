@@ -63,6 +63,8 @@ pub struct TilePlace {
     pub first_coordinate: u32,
     /// How weights are made of densities where light that is met is weighed against sampling it.
     pub heuristic: Heuristic,
+    /// The fewest edges of a path that chains look for; shorter ones are left to another technique.
+    pub shortest: u32,
     /// The step about to run, counted from 0 over the whole render.
     pub step: u64,
 }
@@ -73,6 +75,14 @@ impl TilePlace {
     #[must_use]
     pub const fn vertex(&self, path: usize, depth: u32) -> usize {
         depth as usize * self.capacity as usize + path
+    }
+
+    /// Number of vertex `depth` of a chain's whole path in a table of paths: even ones where the chain's camera subpath would have
+    /// rows, odd ones where its light subpath would.
+    #[inline]
+    #[must_use]
+    pub const fn path_vertex(&self, chain: usize, depth: usize) -> usize {
+        self.vertex(chain + (depth & 1) * self.lights_from as usize, (depth >> 1) as u32)
     }
 
     /// Number of the primary coordinates of the vertex at `depth` of subpath `path`.
@@ -157,6 +167,8 @@ pub struct Queues {
     pub rays: usize,
     /// Segments in the ray table.
     pub segments: usize,
+    /// The most edges of a subpath that was asked for in this step.
+    pub deepest: u32,
 }
 
 /// How deep the tables that grow with depth are, and what a deeper row is made of.

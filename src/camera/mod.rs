@@ -104,6 +104,17 @@ impl Camera {
         }
     }
 
+    /// The ray through film position `film` from the point `origin` of the lens, which cameras without an aperture ignore.
+    #[inline]
+    #[must_use]
+    pub fn ray_from(&self, origin: Vec3, film: Vec2) -> CameraRay {
+        match self {
+            Self::Perspective(camera) => camera.ray(film),
+            Self::ThinLens(camera) => camera.ray_from(origin, film),
+            Self::Orthographic(camera) => camera.ray(film),
+        }
+    }
+
     /// The point of the lens that two uniform numbers choose, uniform in area: where rays start that [`ray`](Self::ray)
     /// makes of the same numbers. The camera's own origin for one of parallel rays, whose rays do not meet.
     #[inline]

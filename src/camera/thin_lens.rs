@@ -62,7 +62,13 @@ impl ThinLens {
     #[inline]
     #[must_use]
     pub fn ray(&self, film: Vec2, lens: [f32; 2]) -> CameraRay {
-        let origin = self.lens_point(lens);
+        self.ray_from(self.lens_point(lens), film)
+    }
+
+    /// The same from the point `origin` of the lens.
+    #[inline]
+    #[must_use]
+    pub fn ray_from(&self, origin: Vec3, film: Vec2) -> CameraRay {
         // In f64 and from the rounded origin, so that rays meet on the focal plane as nearly as directions can say.
         let focused = self.pinhole.origin().as_dvec3() + self.pinhole.towards(film).as_dvec3() * self.focus_distance;
         CameraRay {

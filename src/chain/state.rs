@@ -7,6 +7,7 @@
 /// | block | the part of the film that it reaches | 255 |
 /// | length | edges of the path that carries most of its light | 4095 |
 /// | signature | what kind of vertices that path scatters from, see [`Signature`] | 31 |
+/// | traits | what mutations ask whether they are suitable; no statistics are kept by them | 127 |
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct StateClass(pub u32);
 
@@ -18,6 +19,10 @@ impl StateClass {
     /// Signatures that can be told apart.
     pub const SIGNATURES: usize = Signature::COUNT;
     const MAX_LENGTH: u32 = 4095;
+    /// The first bit of the signature.
+    const SIGNATURE: u32 = 20;
+    /// The first bit of the traits.
+    const TRAITS: u32 = Self::SIGNATURE + Signature::KEPT + 1;
 
     /// The classes of a state. Numbers beyond the last class count as the last.
     #[inline]
@@ -29,14 +34,28 @@ impl StateClass {
         } else {
             Self::MAX_LENGTH
         };
-        Self(block | length << 8 | signature.0 << 20)
+        Self(block | length << 8 | signature.0 << Self::SIGNATURE)
+    }
+
+    /// The same classes of a state with these traits, of which there are seven: a bit for each.
+    #[inline]
+    #[must_use]
+    pub const fn with_traits(self, traits: u32) -> Self {
+        Self(self.0 & ((1 << Self::TRAITS) - 1) | traits << Self::TRAITS)
+    }
+
+    /// The traits.
+    #[inline]
+    #[must_use]
+    pub const fn traits(self) -> u32 {
+        self.0 >> Self::TRAITS
     }
 
     /// The same classes in another block.
     #[inline]
     #[must_use]
     pub const fn in_block(self, block: u32) -> Self {
-        Self::new(block, self.length(), self.signature())
+        Self::new(block, self.length(), self.signature()).with_traits(self.traits())
     }
 
     /// The block.
@@ -69,7 +88,7 @@ impl StateClass {
     #[inline]
     #[must_use]
     pub const fn signature(self) -> Signature {
-        Signature(self.0 >> 20)
+        Signature(self.0 >> Self::SIGNATURE & (Self::SIGNATURES as u32 - 1))
     }
 }
 

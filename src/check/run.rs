@@ -9,7 +9,7 @@ use super::report::{Report, SHOWN, TestKind, TestOutcome, Tested};
 use super::sheet::Sums;
 use super::witness::witness;
 use super::{density, stationary};
-use crate::plan::{AnyMutation, Base, Plan, Registry, StateSpace, Support, Technique};
+use crate::plan::{AnyMutation, Base, Plan, Registry, Support, Technique};
 use crate::scene::Scene;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -167,13 +167,14 @@ impl Tested {
 
 /// The technique whose chains move between the mutation's states.
 fn technique_of(mutation: &dyn AnyMutation) -> Result<Technique, CheckError> {
-    match mutation.space() {
-        StateSpace::PRIMARY => Ok(Technique::Pssmlt),
-        space => Err(CheckError::NoTechnique {
-            name: mutation.name(),
-            space: space.0,
-        }),
-    }
+    let space = mutation.space();
+    let of_space = [Technique::Pssmlt, Technique::Mlt]
+        .into_iter()
+        .find(|technique| technique.space() == Some(space));
+    of_space.ok_or(CheckError::NoTechnique {
+        name: mutation.name(),
+        space: space.0,
+    })
 }
 
 /// A run of replicas, done.

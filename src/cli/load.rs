@@ -139,6 +139,7 @@ impl SceneArgs {
             base: self.strategies.base.unwrap_or_default(),
             strategy: self.strategies.strategy,
             heuristic: self.strategies.heuristic.unwrap_or_default(),
+            ..PlanOptions::default()
         };
         let plan = Plan::with(&scene, technique, &options)?;
         Ok(Loaded {

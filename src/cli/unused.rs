@@ -14,20 +14,26 @@ use miette::{Result, miette};
 pub fn refuse(args: &SceneArgs, technique: Technique, max_depth: u32, mutations: &Registry) -> Result<()> {
     refuse_of_chains(args, technique, mutations)?;
     let strategies = &args.strategies;
+    let has_base = technique.space() == Some(StateSpace::PRIMARY);
     if let Some(base) = strategies.base
-        && !technique.has_chains()
+        && !has_base
     {
+        let own = match technique {
+            Technique::Mlt => "those of mlt walk paths",
+            _ => "it has none",
+        };
         return Err(miette!(
             help = format!("leave --base out; for chains over {base} add --technique pssmlt"),
-            "--base {base} has no effect with {technique}: it says what chains run over, and {technique} has none"
+            "--base {base} has no effect with {technique}: it says what chains in primary sample space run over, and {own}"
         ));
     }
-    let both_ends = technique == Technique::Bdpt || (technique.has_chains() && strategies.base == Some(Base::Bdpt));
+    let both_ends = technique == Technique::Bdpt || (has_base && strategies.base == Some(Base::Bdpt));
     if let Some((s, t)) = strategies.strategy {
         if !both_ends {
             let own = match technique {
                 Technique::Lt => "joins paths to the lens alone (t = 1)",
                 Technique::Pssmlt | Technique::PssmltReference => "runs over pt here, which joins no subpaths",
+                Technique::Mlt => "has chains that need all of them",
                 _ => "joins no subpaths",
             };
             let instead = if technique == Technique::Pssmlt {
@@ -64,6 +70,13 @@ pub fn refuse(args: &SceneArgs, technique: Technique, max_depth: u32, mutations:
 
 /// Refuses a heuristic where no weights are made of it.
 fn refuse_heuristic(heuristic: Heuristic, technique: Technique, strategy: Option<(u32, u32)>) -> Result<()> {
+    if technique == Technique::Mlt {
+        return Err(miette!(
+            help = "leave --heuristic out; pt, bdpt and pssmlt weigh their ways to find a path by it",
+            "--heuristic {heuristic} has no effect with mlt: its chains sample paths in proportion to their light, however they \
+             were found"
+        ));
+    }
     if technique == Technique::Lt {
         return Err(miette!(
             help = "leave --heuristic out; pt, bdpt and pssmlt weigh their ways to find a path by it",
@@ -81,13 +94,11 @@ fn refuse_heuristic(heuristic: Heuristic, technique: Technique, strategy: Option
 
 /// Refuses what is said of chains where there are none, and of mutations that no chain can try.
 fn refuse_of_chains(args: &SceneArgs, technique: Technique, mutations: &Registry) -> Result<()> {
-    if technique.has_chains() {
+    if let Some(space) = technique.space() {
         for text in &args.mutations.mutation {
             let name = text.split(':').next().unwrap_or_default().trim();
-            let space = mutations
-                .get(name)
-                .map_or(StateSpace::PRIMARY, |mutation| mutation.space());
-            let (StateSpace(own), StateSpace(here)) = (space, StateSpace::PRIMARY);
+            let Ok(mutation) = mutations.get(name) else { continue };
+            let (StateSpace(own), StateSpace(here)) = (mutation.space(), space);
             if own != here {
                 return Err(miette!(
                     help = format!("leave it out, or render with a technique whose states are {own}"),

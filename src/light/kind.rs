@@ -204,7 +204,7 @@ impl Light {
 }
 
 /// A point in `direction` from `from`, outside the scene whichever side of it `from` is on.
-fn beyond(scene: BoundingSphere, from: Vec3, direction: Vec3) -> Vec3 {
+pub(super) fn beyond(scene: BoundingSphere, from: Vec3, direction: Vec3) -> Vec3 {
     let (from, center) = (from.as_dvec3(), scene.center.as_dvec3());
     let distance = from.distance(center) + 2.0 * f64::from(scene.radius);
     (from + direction.as_dvec3() * distance).as_vec3()

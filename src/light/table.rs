@@ -183,6 +183,12 @@ impl LightTable {
         self.is_delta(light).then(|| self.sample_other(light, from, [0.0; 2]))?
     }
 
+    /// A point outside the scene in the unit direction `direction` from `from`: where a segment to a light at infinity ends.
+    #[must_use]
+    pub fn beyond(&self, from: Vec3, direction: Vec3) -> Vec3 {
+        super::kind::beyond(self.scene, from, direction)
+    }
+
     /// The density, per solid angle at `from`, with which [`sample`](Self::sample) finds the point `position` with the
     /// unit geometric normal `normal` on emitter `light`. For a light at infinity `position` does not matter, and `normal`
     /// is the direction in which the light travels. Zero for discrete lights: no other way leads to them.

@@ -9,7 +9,7 @@
 
 use crate::color::Rgb;
 use crate::columns;
-use crate::table::{NoTwin, Table};
+use crate::table::Table;
 use bevy_ecs::component::Component;
 use glam::{DVec2, Vec2, Vec3};
 
@@ -18,7 +18,7 @@ use glam::{DVec2, Vec2, Vec3};
 pub struct ChainTable;
 
 impl Table for ChainTable {
-    type Twin = NoTwin;
+    type Apart = ();
 }
 
 /// Marks the rows of the table of proposed path vertices.
@@ -26,7 +26,7 @@ impl Table for ChainTable {
 pub struct ProposalTable;
 
 impl Table for ProposalTable {
-    type Twin = NoTwin;
+    type Apart = ();
 }
 
 /// Marks the rows of the table of subpaths that wait to be scattered: entry i of the list of the scene's model number m (in
@@ -35,7 +35,7 @@ impl Table for ProposalTable {
 pub struct ScatterTable;
 
 impl Table for ScatterTable {
-    type Twin = NoTwin;
+    type Apart = ();
 }
 
 /// Marks the rows of the ray table: as many rays, or segments, at a time as the tile has room for subpaths. Each subpath has
@@ -45,7 +45,7 @@ impl Table for ScatterTable {
 pub struct RayTable;
 
 impl Table for RayTable {
-    type Twin = NoTwin;
+    type Apart = ();
 }
 
 /// Vertex kind: the point on the lens where a camera subpath starts.

@@ -13,13 +13,14 @@ use super::draws::{CoordinateSet, VertexCoordinates};
 use crate::columns;
 use crate::table::{Rows, Table};
 use bevy_ecs::component::Component;
+use bevy_ecs::query::Without;
 
 /// Marks the rows of the table of current primary coordinates.
 #[derive(Component, Clone, Copy, Debug, Default)]
 pub struct PrimaryTable;
 
 impl Table for PrimaryTable {
-    type Twin = ProposedPrimaryTable;
+    type Apart = Without<ProposedPrimaryTable>;
 }
 
 /// Marks the rows of the table of proposed primary coordinates.
@@ -27,7 +28,7 @@ impl Table for PrimaryTable {
 pub struct ProposedPrimaryTable;
 
 impl Table for ProposedPrimaryTable {
-    type Twin = PrimaryTable;
+    type Apart = Without<PrimaryTable>;
 }
 
 columns! {

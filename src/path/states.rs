@@ -6,13 +6,14 @@ use crate::color::Rgb;
 use crate::columns;
 use crate::table::Table;
 use bevy_ecs::component::Component;
+use bevy_ecs::query::Without;
 
 /// Marks the rows of the table of current states' splats.
 #[derive(Component, Clone, Copy, Debug, Default)]
 pub struct SplatTable;
 
 impl Table for SplatTable {
-    type Twin = ProposedSplatTable;
+    type Apart = Without<ProposedSplatTable>;
 }
 
 /// Marks the rows of the table of proposals' splats.
@@ -20,7 +21,7 @@ impl Table for SplatTable {
 pub struct ProposedSplatTable;
 
 impl Table for ProposedSplatTable {
-    type Twin = SplatTable;
+    type Apart = Without<SplatTable>;
 }
 
 columns! {

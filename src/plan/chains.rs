@@ -140,7 +140,9 @@ pub enum ChainPlanError {
 /// What a technique brings beside the core: how its states are traced, evaluated and taken over.
 #[derive(Clone, Debug, Default)]
 pub struct StateSystems {
-    /// Systems, in the order in which they run at each place.
+    /// Systems that run before those of mutations at the same place, in their order.
+    pub before: Vec<SystemPlan>,
+    /// Systems that run after them.
     pub systems: Vec<SystemPlan>,
     /// Tables. The first is the chain table, to which the core adds its columns.
     pub tables: Vec<TablePlan>,
@@ -201,6 +203,7 @@ pub fn chain_tile(
     size: Option<u32>,
 ) -> TilePlan {
     let StateSystems {
+        before,
         systems,
         mut tables,
         subpaths,
@@ -215,6 +218,7 @@ pub fn chain_tile(
         .iter()
         .any(|m| m.mutation.is_selective() && m.mutation.weight() > 0.0);
     let mut all = core_before();
+    all.extend(before);
     for planned in mutations {
         all.extend(planned.mutation.systems());
         planned.mutation.columns(&mut tables);

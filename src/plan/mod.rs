@@ -7,6 +7,7 @@ mod bidirectional;
 mod chains;
 mod effect;
 mod missing;
+mod mlt;
 mod mutation;
 mod path_tracing;
 mod pssmlt;
@@ -51,6 +52,9 @@ pub struct PlanOptions {
     pub strategy: Option<(u32, u32)>,
     /// How weights are made of densities, where strategies share paths.
     pub heuristic: Heuristic,
+    /// The fewest edges of a path that chains in path space look for: 1 for all light, 3 where direct light is left to another
+    /// technique.
+    pub shortest: u32,
 }
 
 impl Default for PlanOptions {
@@ -62,6 +66,7 @@ impl Default for PlanOptions {
             base: Base::default(),
             strategy: None,
             heuristic: Heuristic::default(),
+            shortest: 1,
         }
     }
 }
@@ -180,6 +185,16 @@ impl Plan {
                 strategies = Some(both.strategies);
                 let states = pssmlt::over_bidirectional(&both);
                 let tile = chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size);
+                chains = Some(ChainPlan { counts, mutations });
+                tile
+            }
+            Technique::Mlt => {
+                let mutations = choose_mutations(&options.mutations, StateSpace::PATH, &effects)?;
+                let counts = options.chains.counts(scene.pixel_count());
+                strategies = Some(Strategies::default());
+                let states = mlt::states(scene, &effects);
+                let mut tile = chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size);
+                tile.shortest = options.shortest;
                 chains = Some(ChainPlan { counts, mutations });
                 tile
             }

@@ -101,6 +101,8 @@ pub struct StateSpace(pub &'static str);
 impl StateSpace {
     /// Primary sample space: the uniform numbers that a path tracer turns into a path.
     pub const PRIMARY: Self = Self("primary");
+    /// Path space: whole paths from the camera to a light (Veach and Guibas 1997).
+    pub const PATH: Self = Self("path");
 }
 
 /// A planned mutation's settings and number, as its systems read them.

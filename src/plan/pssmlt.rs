@@ -114,6 +114,7 @@ fn states(set: CoordinateTables<'_>, mut systems: Vec<SystemPlan>, mut tables: V
         tables.push(set.table(TableId::PROPOSED_PRIMARY));
     }
     StateSystems {
+        before: Vec::new(),
         systems,
         tables,
         subpaths: set.subpaths,

@@ -45,6 +45,11 @@ impl TableId {
     /// Splats of proposals.
     pub const PROPOSED_SPLATS: Self = Self::of::<ProposedSplatTable>("proposed splats");
 
+    /// Vertices of current paths.
+    pub const PATHS: Self = Self::of::<whole::PathTable>("paths");
+    /// Vertices of proposed paths.
+    pub const PROPOSED_PATHS: Self = Self::of::<whole::ProposedPathTable>("proposed paths");
+
     /// The table whose rows are marked with `Marker`.
     #[must_use]
     pub const fn of<Marker: Table>(name: &'static str) -> Self {

@@ -1,5 +1,6 @@
 //! Techniques: ways to estimate the picture.
 
+use super::mutation::StateSpace;
 use std::fmt;
 use std::str::FromStr;
 
@@ -34,6 +35,11 @@ pub enum Technique {
     Pssmlt,
     /// The same chains run depth first, one after another: the oracle of the staged ones, and their baseline.
     PssmltReference,
+    /// Metropolis light transport in path space (Veach and Guibas 1997): a state is a path from the camera to a light, and mutations
+    /// change it vertex by vertex.
+    ///
+    /// It finds what `bdpt` finds, and misses what that misses.
+    Mlt,
 }
 
 /// What primary-sample-space chains run over: which light a list of numbers stands for.
@@ -96,22 +102,33 @@ fn hint(nearest: &Option<&'static str>) -> String {
 
 impl Technique {
     /// Every technique.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Pt,
         Self::PtReference,
         Self::Lt,
         Self::Bdpt,
         Self::Pssmlt,
         Self::PssmltReference,
+        Self::Mlt,
     ];
 
     /// Those whose samples are independent, and each of one pixel.
     pub const INDEPENDENT: [Self; 2] = [Self::Pt, Self::PtReference];
 
+    /// The kind of states that its chains move between; `None` where its samples are independent.
+    #[must_use]
+    pub const fn space(self) -> Option<StateSpace> {
+        match self {
+            Self::Pt | Self::PtReference | Self::Lt | Self::Bdpt => None,
+            Self::Pssmlt | Self::PssmltReference => Some(StateSpace::PRIMARY),
+            Self::Mlt => Some(StateSpace::PATH),
+        }
+    }
+
     /// Whether its samples are states of Markov chains, and not independent.
     #[must_use]
     pub const fn has_chains(self) -> bool {
-        matches!(self, Self::Pssmlt | Self::PssmltReference)
+        self.space().is_some()
     }
 
     /// The name on the command line and in files.
@@ -124,6 +141,7 @@ impl Technique {
             Self::Bdpt => "bdpt",
             Self::Pssmlt => "pssmlt",
             Self::PssmltReference => "pssmlt-reference",
+            Self::Mlt => "mlt",
         }
     }
 }

@@ -44,6 +44,8 @@ pub struct TilePlan {
     pub subpaths: Subpaths,
     /// How weights are made of densities where light that is met is weighed against sampling it.
     pub heuristic: Heuristic,
+    /// The fewest edges of a path that chains look for.
+    pub shortest: u32,
 }
 
 impl TilePlan {
@@ -77,6 +79,7 @@ impl TilePlan {
             reason: String::new(),
             subpaths,
             heuristic: Heuristic::default(),
+            shortest: 1,
         };
         tile.resize(size, reason);
         tile

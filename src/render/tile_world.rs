@@ -39,6 +39,7 @@ impl TileWorld {
             lights_from: plan.lights_from(),
             first_coordinate: plan.first_coordinate(),
             heuristic: plan.heuristic,
+            shortest: plan.shortest,
             step: 0,
         };
         world.insert_resource(place);

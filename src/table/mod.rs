@@ -14,4 +14,4 @@ pub use column::{Column, ColumnSpec, Rows};
 pub use lanes::{
     LANES, LaneValue, Lanes3, LanesD2, LanesF32, LanesF64, LanesU2, LanesU32, LanesU64, LanesUL2, lane_groups,
 };
-pub use whole::{NoTwin, Read, Table, Write};
+pub use whole::{Read, Table, Write};

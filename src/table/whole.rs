@@ -3,24 +3,21 @@
 use super::Column;
 use bevy_ecs::change_detection::ContiguousMut;
 use bevy_ecs::component::Component;
-use bevy_ecs::query::{With, Without};
+use bevy_ecs::query::{ArchetypeFilter, With};
 use bevy_ecs::system::{Query, SystemParam};
 
 /// A table: the marker of its rows.
 pub trait Table: Component + Default {
-    /// The table that has the same columns, such as that of proposals beside that of current states; [`NoTwin`] if there is
-    /// none. A system may read a column of one and write that of the other.
-    type Twin: Component;
+    /// The tables that have some of the same columns, such as that of proposals beside that of current states, as
+    /// [`Without`](bevy_ecs::query::Without) their markers; `()` if there is none, and on one side of each pair. A system may read a
+    /// column of one and write that of the other.
+    type Apart: ArchetypeFilter;
 }
-
-/// Marks nothing: the twin of tables without one.
-#[derive(Component, Clone, Copy, Debug, Default)]
-pub struct NoTwin;
 
 /// Reads the whole column `C` of the table marked `T`.
 #[derive(SystemParam)]
 pub struct Read<'w, 's, C: Column, T: Table> {
-    query: Query<'w, 's, &'static C, (With<T>, Without<<T as Table>::Twin>)>,
+    query: Query<'w, 's, &'static C, (With<T>, <T as Table>::Apart)>,
 }
 
 impl<C: Column, T: Table> Read<'_, '_, C, T> {
@@ -39,7 +36,7 @@ impl<C: Column, T: Table> Read<'_, '_, C, T> {
 /// Writes the whole column `C` of the table marked `T`. Change detection is bypassed: nothing here watches ticks.
 #[derive(SystemParam)]
 pub struct Write<'w, 's, C: Column, T: Table> {
-    query: Query<'w, 's, &'static mut C, (With<T>, Without<<T as Table>::Twin>)>,
+    query: Query<'w, 's, &'static mut C, (With<T>, <T as Table>::Apart)>,
 }
 
 impl<C: Column, T: Table> Write<'_, '_, C, T> {

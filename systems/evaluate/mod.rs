@@ -1,12 +1,14 @@
 //! The evaluate stage: what proposals contribute.
 
 mod evaluate_lists;
+mod evaluate_paths;
 mod evaluate_targets;
 mod gather_contribution;
 mod tally_independent;
 mod weigh_choices;
 
 pub use evaluate_lists::evaluate_lists;
+pub use evaluate_paths::evaluate_paths;
 pub use evaluate_targets::evaluate_targets;
 pub(super) use evaluate_targets::normalized;
 pub(super) use gather_contribution::Brightest;

@@ -8,6 +8,7 @@ mod key_chains;
 pub mod known;
 pub mod large_step;
 mod list_starts;
+pub mod paths;
 pub mod proposal;
 pub mod small_step;
 mod small_support;
@@ -21,6 +22,10 @@ pub use identity::{Identity, draw_identities, propose_identities};
 pub use key_chains::key_chains;
 pub use large_step::{LargeStep, draw_large_steps, propose_large_steps};
 pub use list_starts::list_starts;
+pub use paths::{
+    Bidirectional, NewPath, end_vertex, make_room, propose_bidirectional, propose_new_paths, start_paths,
+    weigh_bidirectional, weigh_new_paths,
+};
 pub use small_step::{SmallStep, draw_small_steps, propose_small_steps};
 pub use small_support::{draw_small_supports, propose_small_supports, weigh_small_supports};
 pub use start_camera_paths::start_camera_paths;
@@ -35,4 +40,6 @@ pub fn mutations() -> Registry {
         .with(LargeStep::default())
         .with(SmallStep::default())
         .with(Identity::default())
+        .with(NewPath::default())
+        .with(Bidirectional::default())
 }

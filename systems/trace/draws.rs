@@ -2,11 +2,13 @@
 //! elsewhere.
 
 use super::super::tile::TilePlace;
+use crate::chain::KeyChain;
 use crate::material::ScatterDraw;
 use crate::path::{
     ChainKey, ChainTable, CoordinateColumns, CoordinateColumnsMut, KeyedDraws, LightDraw, PathDraws, PrimaryChoice,
     PrimaryLight, PrimaryLobe, PrimaryRoulette, PrimaryScatter, PrimaryTable, ProposedPrimaryTable, VertexCoordinates,
 };
+use crate::sampling::StreamKey;
 use crate::table::{Read, Rows, Table, Write};
 use bevy_ecs::system::SystemParam;
 
@@ -67,6 +69,7 @@ impl<T: Table> CoordinatesMut<'_, '_, T> {
 #[derive(SystemParam)]
 pub struct Draws<'w, 's> {
     keys: Read<'w, 's, ChainKey, ChainTable>,
+    key_chains: Read<'w, 's, KeyChain, ChainTable>,
     coordinates: ProposedCoordinates<'w, 's>,
 }
 
@@ -74,6 +77,7 @@ pub struct Draws<'w, 's> {
 pub struct DrawColumns<'a> {
     place: TilePlace,
     keys: &'a [ChainKey],
+    key_chains: &'a [KeyChain],
     coordinates: CoordinateColumns<'a>,
 }
 
@@ -84,6 +88,7 @@ impl Draws<'_, '_> {
         DrawColumns {
             place: *place,
             keys: self.keys.rows(),
+            key_chains: self.key_chains.rows(),
             coordinates: self.coordinates.columns(),
         }
     }
@@ -176,6 +181,11 @@ impl DrawColumns<'_> {
     #[inline(always)]
     fn keyed(&self, path: usize) -> KeyedDraws {
         let chain = self.place.chain(path);
-        KeyedDraws(self.place.key(chain, self.keys.at(chain)))
+        let bits = self.keys.at(chain);
+        KeyedDraws(if self.key_chains.is_empty() {
+            self.place.key(chain, bits)
+        } else {
+            StreamKey::from_bits(bits, self.key_chains.at(chain))
+        })
     }
 }

@@ -5,6 +5,7 @@ use super::ends::{Arrival, EndColumns, Ends};
 use crate::color::Rgb;
 use crate::geometry::{Hit, HitInstance, HitPrimitive, HitUv, NO_HIT, NOT_EMITTING};
 use crate::path::mis::Heuristic;
+use crate::path::whole::{STEERED, StopDepth};
 use crate::path::*;
 use crate::scene::Scene;
 use crate::table::{Read, Rows, Write};
@@ -19,6 +20,7 @@ pub struct Hits<'w, 's> {
     primitives: Read<'w, 's, HitPrimitive, RayTable>,
     uvs: Read<'w, 's, HitUv, RayTable>,
     directions: Read<'w, 's, Direction, ChainTable>,
+    stops: Read<'w, 's, StopDepth, ChainTable>,
 }
 
 /// The vertex columns that it writes.
@@ -51,7 +53,8 @@ pub struct Lists<'w, 's> {
 
 /// Appends a vertex to every path whose ray met a surface, or, from the camera, a light at infinity. In techniques that find
 /// light from the camera alone it has the light that it sends back along the path, weighted against sampling that light; in
-/// those with both ends, what their joining will need. Lists the path for connection and scattering if it may grow further.
+/// those with both ends, what their joining will need. Lists the path for connection and scattering if it may grow further; one that
+/// its mutation steers, for that mutation.
 pub fn extend_paths(
     scene: Res<SceneRef>,
     place: Res<TilePlace>,
@@ -71,6 +74,7 @@ pub fn extend_paths(
         place: &place,
         paths: hits.paths.rows(),
         directions: hits.directions.rows(),
+        stops: hits.stops.rows(),
         hits: (hits.instances.rows(), hits.primitives.rows(), hits.uvs.rows()),
         lengths: lengths.rows(),
         kinds: vertices.kinds.rows(),
@@ -110,6 +114,7 @@ struct Run<'a> {
     place: &'a TilePlace,
     paths: &'a [RayChain],
     directions: &'a [Direction],
+    stops: &'a [StopDepth],
     hits: (&'a [HitInstance], &'a [HitPrimitive], &'a [HitUv]),
     lengths: &'a mut [PathLength],
     kinds: &'a mut [VertexKind],
@@ -148,6 +153,7 @@ impl Run<'_> {
             place,
             paths,
             directions,
+            stops,
             hits: (instances, primitives, uvs),
             lengths,
             kinds,
@@ -269,14 +275,26 @@ impl Run<'_> {
                 }
             }
 
-            // The lens adds an edge to every light subpath.
-            let last = scene.max_depth - u32::from(from_light);
-            if !draw.is_empty() && (depth < last || (from_light && depth == last)) {
-                draw.put(queues.draw, path as u32);
-                queues.draw += 1;
-            }
-            if depth >= last {
-                continue;
+            if plain || stops.is_empty() {
+                // The lens adds an edge to every light subpath.
+                let last = scene.max_depth - u32::from(from_light);
+                if !draw.is_empty() && (depth < last || (from_light && depth == last)) {
+                    draw.put(queues.draw, path as u32);
+                    queues.draw += 1;
+                }
+                if depth >= last {
+                    continue;
+                }
+            } else {
+                let stop = stops.at(path);
+                if depth >= stop & !STEERED {
+                    continue;
+                }
+                if stop & STEERED != 0 {
+                    draw.put(queues.draw, path as u32);
+                    queues.draw += 1;
+                    continue;
+                }
             }
             let kind = scene.materials.kind(material);
             if !kind.is_discrete() && !connections.is_empty() {

@@ -2,6 +2,7 @@
 
 mod connect_lights;
 mod continue_paths;
+mod continue_to_stop;
 mod depth_first;
 pub mod draws;
 mod emit_rays;
@@ -17,11 +18,12 @@ mod transmit_segments;
 
 pub use connect_lights::connect_lights;
 pub use continue_paths::continue_paths;
+pub use continue_to_stop::continue_to_stop;
 pub use depth_first::trace_depth_first;
 pub use emit_rays::emit_rays;
 pub use extend_paths::extend_paths;
 pub use intersect_rays::intersect_rays;
-pub use join::{book_connections, join_loop, offer_connections, transmit_connections};
+pub use join::{book_connections, join_loop, join_paths, offer_connections, transmit_connections};
 pub use mutate_depth_first::mutate_depth_first;
 pub use scatter_models::*;
 pub use trace_loop::trace_loop;

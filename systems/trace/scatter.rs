@@ -233,7 +233,9 @@ impl Run<'_> {
                 reverses.put(vertex, outcome.reverse);
             }
             directions.put(path, direction);
-            throughputs.put(path, throughputs.at(path) * outcome.ratio);
+            if plain || !throughputs.is_empty() {
+                throughputs.put(path, throughputs.at(path) * outcome.ratio);
+            }
             // Of light that travels along the path, refraction takes none away.
             if !scales.is_empty() && transport == Transport::Radiance {
                 scales.put(path, scales.at(path) * (outcome.relative_ior * outcome.relative_ior));

@@ -10,7 +10,7 @@ use crate::support::verdict::say;
 use chainlight::light::Endpoint;
 use chainlight::path::bidirectional::{EndVertex, Weights};
 use chainlight::path::mis::Heuristic;
-use chainlight::path::whole::{WholePath, WholeVertex};
+use chainlight::path::whole::{Measured, WholePath, WholeVertex};
 use chainlight::path::*;
 use chainlight::scene::Scene;
 use glam::Vec3;
@@ -94,7 +94,7 @@ struct Compared {
 /// Compares every path that the pairs of subpaths of a scene join. Of paths that `mistake` changes before they are measured.
 fn compare(scene: &Arc<Scene>, mistake: impl Fn(&mut [WholeVertex])) -> Vec<Compared> {
     let mut stream = stream(2);
-    let mut compared = Vec::new();
+    let (mut compared, mut measured) = (Vec::new(), Measured::default());
     for_each_pair(scene, Heuristic::Balance, |pair| {
         for (s, t) in pair.strategies() {
             let draw = light_draw(&mut stream);
@@ -116,10 +116,10 @@ fn compare(scene: &Arc<Scene>, mistake: impl Fn(&mut [WholeVertex])) -> Vec<Comp
                 vertices: &vertices,
                 light,
             };
-            let measured = whole.passages().and_then(|passages| whole.measure(&passages));
+            let found = whole.measure(&mut measured);
             let filter = if t == 1 { filter(pair, s).expect("seen") } else { 1.0 };
-            let light = measured.as_ref().map_or(0.0, |m| m.light.max_channel()) * filter;
-            let share = measured.as_ref().map_or(0.0, |m| m.share(t));
+            let light = found.map_or(0.0, |light| light.max_channel()) * filter;
+            let share = measured.share(t);
             let expected = f64::from(weighted.max_channel() / alone.max_channel());
             compared.push(Compared {
                 light: f64::from(light / weighted.max_channel() - 1.0).abs(),

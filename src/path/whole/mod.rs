@@ -14,10 +14,17 @@
 //!
 //! No product of densities ever stands alone: ratios are made of [`Scaled`] numbers.
 
+mod columns;
+mod form;
+mod lengths;
 mod scaled;
 mod strategies;
 mod vertex;
 
+pub use columns::*;
+pub use form::{CAUSTIC_TRAIT, CHAIN_TRAIT, LENS_TRAIT, PathForm};
+pub(crate) use form::{camera_vertices, light_vertices};
+pub use lengths::{Deletion, Lengths, Replacement};
 pub use scaled::Scaled;
-pub use strategies::{LightEnd, Measured, WholePath};
+pub use strategies::{Measured, WholePath};
 pub use vertex::{Passage, WholeVertex};

@@ -16,22 +16,19 @@ pub struct WholePath<'a> {
     pub light: u32,
 }
 
-/// How a path's last vertex comes to be where a light subpath has it alone (s = 1).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LightEnd {
-    /// Chosen as seen from the vertex before it, as next-event estimation does.
-    Sampled,
-    /// It was there: a mutation keeps it. Then its density is that of a light subpath's start, whatever leads to it.
-    Kept,
-}
-
-/// A whole path in the measure of bidirectional path tracing.
+/// A whole path in the measure of bidirectional path tracing, and the room to work it out in: to be used again for the next one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measured {
     /// f / r per channel, with the camera's importance for every place of the film, and filters left out.
     pub light: Rgb,
+    /// How light passes x₀ … xₖ; [`Passage::END`] at the ends.
+    pub passages: Vec<Passage>,
+    /// The density of xₖ where a light subpath starts, over that with which it is chosen as seen from the vertex before, the way
+    /// that strategy s = 1 does: 1 where no choice is made. A mutation that keeps xₖ alone of the light's end has p₍₁,ₖ₎ times this.
+    pub kept_light: f64,
     /// p₍ₛ,ₜ₎ / r by t, from 0 to k + 1; 0 for strategies that cannot find the path. They sum to 1.
     shares: Vec<f64>,
+    densities: Vec<Scaled>,
 }
 
 impl Measured {
@@ -39,12 +36,6 @@ impl Measured {
     #[must_use]
     pub fn share(&self, t: usize) -> f64 {
         self.shares.get(t).copied().unwrap_or(0.0)
-    }
-
-    /// The sum of the shares of the strategies with `t` in a range.
-    #[must_use]
-    pub fn shares(&self, t: std::ops::RangeInclusive<usize>) -> f64 {
-        t.map(|t| self.share(t)).sum()
     }
 }
 
@@ -60,71 +51,87 @@ impl WholePath<'_> {
         self.vertices[i + 1].surface.direction
     }
 
-    /// How light passes every vertex; `None` where it does not.
+    /// What the path brings, and the shares of strategies. `None` where it brings nothing, or no strategy finds it.
     #[must_use]
-    pub fn passages(&self) -> Option<Vec<Passage>> {
-        let inner = 1..self.length();
-        let passed = inner.map(|i| self.vertices[i].passage(self.scene, self.edge(i)));
-        [Some(Passage::END)]
-            .into_iter()
-            .chain(passed)
-            .chain([Some(Passage::END)])
-            .collect()
-    }
-
-    /// What the path brings, and the shares of strategies. `passages` are those of [`passages`](Self::passages). `None` where it
-    /// brings nothing, or no strategy finds it.
-    #[must_use]
-    pub fn measure(&self, passages: &[Passage]) -> Option<Measured> {
+    pub fn measure(&self, measured: &mut Measured) -> Option<Rgb> {
+        self.pass(&mut measured.passages)?;
         let lights = &self.scene.lights;
         let k = self.length();
         let (end, before) = (&self.vertices[k], &self.vertices[k - 1]);
         let last = self.edge(k - 1);
-        let delta = lights.is_delta(self.light);
-        let densities = self.densities(passages, LightEnd::Sampled);
-        // The density of one strategy, and what the path brings over it: that which meets the light, or, of a light in one place or
-        // direction, which no path meets, that which samples it.
         let mut light = [1.0; 3];
-        for passage in &passages[1..k] {
+        for passage in &measured.passages[1..k] {
             for (light, ratio) in light.iter_mut().zip(passage.ratio) {
                 *light *= ratio;
             }
         }
-        let (reference, factor, emitted) = if delta {
+        // The density of one strategy, and what the path brings over it: that which meets the light, or, of a light in one place or
+        // direction, which no path meets, that which samples it.
+        let (reference, factor, emitted) = if lights.is_delta(self.light) {
             if k < 2 {
                 return None;
             }
             let seen = lights.seen(self.light, before.surface.position)?;
             // As if it were a small lamp: also where a mirror reflects it, though no strategy samples it there.
-            let factor = f64::from(passages[k - 1].onward) / f64::from(seen.density);
+            let factor = f64::from(measured.passages[k - 1].onward) / f64::from(seen.density);
             (k, factor, seen.radiance)
         } else {
-            (k + 1, 1.0, lights.radiance(self.light, end.surface.normal, -last))
+            // Lights at infinity overlap: one of them is chosen where a path meets all.
+            let factor = self.meeting().recip();
+            (k + 1, factor, lights.radiance(self.light, end.surface.normal, -last))
         };
-        let over: Vec<f64> = (0..k + 2)
-            .map(|t| densities[t].over(densities[reference]))
-            .zip(0..)
-            .map(|(ratio, t)| if t > 0 && self.finds(t) { ratio } else { 0.0 })
-            .collect();
-        let total: f64 = over.iter().sum();
+        if emitted.is_black() {
+            return None;
+        }
+        self.densities(measured);
+        let Measured { shares, densities, .. } = measured;
+        shares.clear();
+        shares.push(0.0);
+        for t in 1..k + 2 {
+            shares.push(if self.finds(t) {
+                densities[t].over(densities[reference])
+            } else {
+                0.0
+            });
+        }
+        let total: f64 = shares.iter().sum();
         let scale = factor / total;
         if !(scale.is_finite() && total > 0.0) {
             return None;
         }
+        shares.iter_mut().for_each(|share| *share /= total);
         let emitted = emitted.to_array();
         let [r, g, b] = std::array::from_fn(|c| (light[c] * f64::from(emitted[c]) * scale) as f32);
-        let measured = Measured {
-            light: Rgb::new(r, g, b),
-            shares: over.into_iter().map(|ratio| ratio / total).collect(),
-        };
-        (!measured.light.is_black()).then_some(measured)
+        measured.light = Rgb::new(r, g, b);
+        (!measured.light.is_black()).then_some(measured.light)
     }
 
-    /// The densities of all strategies by t, where the last vertex has come to be as `end` says: the products alone, also of
-    /// strategies that [cannot find](Self::finds) the path, as the discrete vertices that they would join cannot be joined.
-    fn densities(&self, passages: &[Passage], end: LightEnd) -> Vec<Scaled> {
+    /// How light passes every vertex; `None` where it does not.
+    fn pass(&self, passages: &mut Vec<Passage>) -> Option<()> {
+        passages.clear();
+        passages.push(Passage::END);
+        for i in 1..self.length() {
+            passages.push(self.vertices[i].passage(self.scene, self.edge(i))?);
+        }
+        passages.push(Passage::END);
+        Some(())
+    }
+
+    /// The chance with which a path that meets the light has it for its end.
+    fn meeting(&self) -> f64 {
+        if self.vertices[self.length()].site().is_infinite() {
+            1.0 / self.scene.lights.infinite().count().max(1) as f64
+        } else {
+            1.0
+        }
+    }
+
+    /// Works out the densities of all strategies by t: the products alone, also of strategies that [cannot find](Self::finds) the
+    /// path, as the discrete vertices that they would join cannot be joined. Entry 0 stands for none.
+    fn densities(&self, measured: &mut Measured) {
         let (lights, camera) = (&self.scene.lights, &self.scene.camera);
         let k = self.length();
+        let passages = &measured.passages;
         let site = |i: usize| self.vertices[i].site();
         let emission = lights.emission_densities(self.light, self.vertices[k].surface.normal, -self.edge(k - 1));
         // p→ of vertex i + 1, and p← of vertex i, over their edge.
@@ -145,8 +152,7 @@ impl WholePath<'_> {
             site(i + 1).arriving_along(&site(i), density, self.edge(i))
         };
         let position = f64::from(emission.position);
-        let delta = lights.is_delta(self.light);
-        let sampled = if delta || k < 2 || end == LightEnd::Kept {
+        let sampled = if lights.is_delta(self.light) || k < 2 {
             position
         } else {
             let (from, to) = (&self.vertices[k - 1].surface, &self.vertices[k].surface);
@@ -154,23 +160,24 @@ impl WholePath<'_> {
             site(k - 1).arriving_along(&site(k), density, self.edge(k - 1))
         };
         // The product over the light subpath of strategy t, from the longest camera subpath on.
-        let mut behind = vec![Scaled::ONE; k + 2];
+        let densities = &mut measured.densities;
+        densities.clear();
+        densities.resize(k + 2, Scaled::new(self.meeting()));
         for t in (1..=k).rev() {
-            behind[t] = match k - t {
+            densities[t] = match k - t {
                 0 => Scaled::new(sampled),
                 1 => Scaled::new(position).times(back(t)),
-                _ => behind[t + 1].times(back(t)),
+                _ => densities[t + 1].times(back(t)),
             };
         }
-        let mut strategies = vec![Scaled::new(0.0); k + 2];
         let mut ahead = Scaled::ONE;
         for t in 1..=k + 1 {
-            strategies[t] = ahead.by(behind[t]);
+            densities[t] = ahead.by(densities[t]);
             if t <= k {
                 ahead = ahead.times(onward(t - 1));
             }
         }
-        strategies
+        measured.kept_light = position / sampled;
     }
 
     /// Whether the strategy with t vertices from the camera can find the path.

@@ -3,11 +3,13 @@
 
 mod book_connections;
 mod join_loop;
+mod join_paths;
 mod offer_connections;
 mod subpaths;
 mod transmit_connections;
 
 pub use book_connections::book_connections;
 pub use join_loop::{JoinCursor, join_loop};
+pub use join_paths::{join_paths, joining};
 pub use offer_connections::offer_connections;
 pub use transmit_connections::transmit_connections;
