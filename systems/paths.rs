@@ -2,8 +2,8 @@
 
 use crate::path::whole::WholeVertex;
 use crate::path::{
-    Scatterer, VertexArrival, VertexKind, VertexMaterial, VertexNormal, VertexOffset, VertexPosition, VertexShadingNormal,
-    VertexTangent, VertexTexture,
+    Scatterer, VertexArrival, VertexKind, VertexMaterial, VertexNormal, VertexOffset, VertexPosition,
+    VertexShadingNormal, VertexTangent, VertexTexture,
 };
 use crate::table::{Read, Rows, Table, Write};
 use bevy_ecs::system::SystemParam;
@@ -156,6 +156,12 @@ impl VertexColumnsMut<'_> {
             tangents,
         };
         columns.at(vertex)
+    }
+
+    /// Writes the kind of the vertex of this number.
+    #[inline]
+    pub fn put_kind(&mut self, vertex: usize, kind: u32) {
+        self.kinds.put(vertex, kind);
     }
 
     /// Writes the vertex of this number.

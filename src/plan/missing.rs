@@ -87,7 +87,9 @@ pub(super) fn missing(scene: &Scene, technique: Technique, base: Base) -> Vec<Mi
     }
     match (technique, base) {
         (Technique::Lt, _) => missed_by_lights_alone(scene),
-        (Technique::Bdpt | Technique::Mlt, _) | (Technique::Pssmlt | Technique::PssmltReference, Base::Bdpt) => missed_by_both(scene),
+        (Technique::Bdpt | Technique::Mlt, _) | (Technique::Pssmlt | Technique::PssmltReference, Base::Bdpt) => {
+            missed_by_both(scene)
+        }
         (Technique::Pt | Technique::PtReference | Technique::Pssmlt | Technique::PssmltReference, _) => {
             missed_by_camera_alone(scene)
         }

@@ -48,7 +48,11 @@ pub fn take_paths(
 ) {
     let accepted = accepted.rows();
     let (edges, lights, pixels) = (proposed.edges.rows(), proposed.lights.rows(), proposed.pixels.rows());
-    let (film, filters, kept_lights) = (proposed.film.rows(), proposed.filters.rows(), proposed.kept_lights.rows());
+    let (film, filters, kept_lights) = (
+        proposed.film.rows(),
+        proposed.filters.rows(),
+        proposed.kept_lights.rows(),
+    );
     let (to_edges, to_lights, to_pixels) = (current.edges.rows(), current.lights.rows(), current.pixels.rows());
     let (to_film, to_filters, to_kept_lights) =
         (current.film.rows(), current.filters.rows(), current.kept_lights.rows());

@@ -115,11 +115,7 @@ pub fn evaluate_paths(
             continue;
         };
         let Work { vertices, measured } = &mut *work;
-        let path = WholePath {
-            scene,
-            vertices,
-            light,
-        };
+        let path = WholePath { scene, vertices, light };
         let Some(value) = path.measure(measured) else {
             continue;
         };

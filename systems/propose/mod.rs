@@ -22,10 +22,7 @@ pub use identity::{Identity, draw_identities, propose_identities};
 pub use key_chains::key_chains;
 pub use large_step::{LargeStep, draw_large_steps, propose_large_steps};
 pub use list_starts::list_starts;
-pub use paths::{
-    Bidirectional, NewPath, end_vertex, make_room, propose_bidirectional, propose_new_paths, start_paths,
-    weigh_bidirectional, weigh_new_paths,
-};
+pub use paths::*;
 pub use small_step::{SmallStep, draw_small_steps, propose_small_steps};
 pub use small_support::{draw_small_supports, propose_small_supports, weigh_small_supports};
 pub use start_camera_paths::start_camera_paths;
@@ -42,4 +39,8 @@ pub fn mutations() -> Registry {
         .with(Identity::default())
         .with(NewPath::default())
         .with(Bidirectional::default())
+        .with(LensPerturbation::default())
+        .with(LensSubpath::default())
+        .with(CausticPerturbation::default())
+        .with(MultiChainPerturbation::default())
 }

@@ -159,41 +159,53 @@ impl Replacement {
         })
     }
 
-    /// How many vertices come for those that are taken out of a path with `length` edges, as `u` in [0, 1) chooses; `None` where
-    /// no number will do.
+    /// How many vertices can come for those that are taken out of a path with `length` edges; none where no number will do.
     #[must_use]
-    pub fn insert(&self, length: u32, deletion: Deletion, u: f64) -> Option<u32> {
-        let sum: f64 = self.insertion_weights(length, deletion).map(|(_, weight)| weight).sum();
-        let mut left = u * sum;
-        let mut chosen = None;
-        for (vertices, weight) in self.insertion_weights(length, deletion) {
-            chosen = Some(vertices);
+    pub fn growth(&self, length: u32, deletion: Deletion) -> Growth {
+        let kept = length + 1 - deletion.vertices;
+        let least = u32::from(deletion.takes_an_end() || deletion.vertices == 0);
+        Growth {
+            least: least.max((self.shortest + 1).saturating_sub(kept)),
+            most: (self.longest + 1).saturating_sub(kept),
+        }
+    }
+}
+
+/// The numbers of vertices that can come for others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Growth {
+    /// The fewest.
+    pub least: u32,
+    /// The most; where it is less than `least`, there is none.
+    pub most: u32,
+}
+
+impl Growth {
+    /// The number that comes for `taken`, as `u` in [0, 1) chooses.
+    #[must_use]
+    pub fn sample(&self, taken: u32, u: f64) -> u32 {
+        let mut left = u * self.weights(taken).map(|(_, weight)| weight).sum::<f64>();
+        for (number, weight) in self.weights(taken) {
             if left < weight {
-                break;
+                return number;
             }
             left -= weight;
         }
-        chosen
+        self.most
     }
 
-    /// The probability that `vertices` come for those that are taken out.
+    /// The probability that `number` come for `taken`.
     #[must_use]
-    pub fn insertion(&self, length: u32, deletion: Deletion, vertices: u32) -> f64 {
-        let (mut sum, mut this) = (0.0, 0.0);
-        for (number, weight) in self.insertion_weights(length, deletion) {
-            sum += weight;
-            if number == vertices {
-                this = weight;
-            }
+    pub fn probability(&self, taken: u32, number: u32) -> f64 {
+        if !(self.least..=self.most).contains(&number) {
+            return 0.0;
         }
-        if this > 0.0 { this / sum } else { 0.0 }
+        let sum: f64 = self.weights(taken).map(|(_, weight)| weight).sum();
+        growth_weight(i64::from(number) - i64::from(taken)) / sum
     }
 
-    fn insertion_weights(&self, length: u32, deletion: Deletion) -> impl Iterator<Item = (u32, f64)> {
-        let (length, taken) = (i64::from(length), i64::from(deletion.vertices));
-        let least = i64::from(deletion.takes_an_end() || taken == 0).max(i64::from(self.shortest) - length + taken);
-        let most = i64::from(self.longest) - length + taken;
-        (least..=most).map(move |vertices| (vertices as u32, growth_weight(vertices - taken)))
+    fn weights(&self, taken: u32) -> impl Iterator<Item = (u32, f64)> {
+        (self.least..=self.most).map(move |number| (number, growth_weight(i64::from(number) - i64::from(taken))))
     }
 }
 
@@ -215,7 +227,8 @@ mod tests {
                 from_light: length + 1 - vertices - from_camera,
             })
         });
-        all.filter(|&deletion| REPLACEMENT.deletion(length, deletion) > 0.0).collect()
+        all.filter(|&deletion| REPLACEMENT.deletion(length, deletion) > 0.0)
+            .collect()
     }
 
     #[test]
@@ -234,7 +247,10 @@ mod tests {
         for (length, count) in (0..).zip(counts) {
             let probability = lengths.probability(length);
             sum += probability;
-            assert!((f64::from(count) / f64::from(DRAWS) - probability).abs() < 2e-5, "{length}");
+            assert!(
+                (f64::from(count) / f64::from(DRAWS) - probability).abs() < 2e-5,
+                "{length}"
+            );
         }
         assert!((sum - 1.0).abs() < 1e-12);
         assert_eq!((lengths.probability(2), lengths.probability(13)), (0.0, 0.0));
@@ -247,7 +263,9 @@ mod tests {
             let mut counts = std::collections::BTreeMap::new();
             for (i, j) in (0..SIDE).flat_map(|i| (0..SIDE).map(move |j| (i, j))) {
                 let place = |i: u32| (f64::from(i) + 0.5) / f64::from(SIDE);
-                let Deletion { vertices, from_camera, .. } = REPLACEMENT.delete(length, place(i), place(j));
+                let Deletion {
+                    vertices, from_camera, ..
+                } = REPLACEMENT.delete(length, place(i), place(j));
                 *counts.entry((vertices, from_camera)).or_insert(0_u32) += 1;
             }
             let mut sum = 0.0;
@@ -255,7 +273,10 @@ mod tests {
                 let probability = REPLACEMENT.deletion(length, deletion);
                 let count = counts.remove(&(deletion.vertices, deletion.from_camera)).unwrap_or(0);
                 let drawn = f64::from(count) / f64::from(SIDE * SIDE);
-                assert!((drawn - probability).abs() < 4e-3, "{length} {deletion:?}: {drawn} {probability}");
+                assert!(
+                    (drawn - probability).abs() < 4e-3,
+                    "{length} {deletion:?}: {drawn} {probability}"
+                );
                 assert!(deletion.from_camera != 1 && deletion.from_light != 1);
                 assert!(deletion.vertices > 0 || !deletion.takes_an_end());
                 sum += probability;
@@ -271,15 +292,15 @@ mod tests {
         for length in 3..=9 {
             for deletion in deletions(length) {
                 let mut counts = [0_u32; 16];
+                let growth = REPLACEMENT.growth(length, deletion);
+                assert!(growth.least <= growth.most, "{length} {deletion:?}");
                 for i in 0..DRAWS {
                     let u = (f64::from(i) + 0.5) / f64::from(DRAWS);
-                    if let Some(vertices) = REPLACEMENT.insert(length, deletion, u) {
-                        counts[vertices as usize] += 1;
-                    }
+                    counts[growth.sample(deletion.vertices, u) as usize] += 1;
                 }
                 let total: u32 = counts.iter().sum();
                 for (vertices, count) in (0..).zip(counts) {
-                    let probability = REPLACEMENT.insertion(length, deletion, vertices);
+                    let probability = growth.probability(deletion.vertices, vertices);
                     let drawn = f64::from(count) / f64::from(total.max(1));
                     assert!((drawn - probability).abs() < 2e-4, "{length} {deletion:?} {vertices}");
                     if probability > 0.0 {
@@ -287,7 +308,11 @@ mod tests {
                         let longer = length + vertices - deletion.vertices;
                         assert!((3..=9).contains(&longer));
                         assert!(REPLACEMENT.deletion(longer, back) > 0.0, "{longer} {back:?}");
-                        assert!(REPLACEMENT.insertion(longer, back, deletion.vertices) > 0.0, "{longer} {back:?}");
+                        let there = REPLACEMENT.growth(longer, back);
+                        assert!(
+                            there.probability(vertices, deletion.vertices) > 0.0,
+                            "{longer} {back:?}"
+                        );
                     }
                 }
             }

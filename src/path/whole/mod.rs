@@ -16,6 +16,7 @@
 
 mod columns;
 mod form;
+mod jumps;
 mod lengths;
 mod scaled;
 mod strategies;
@@ -24,7 +25,8 @@ mod vertex;
 pub use columns::*;
 pub use form::{CAUSTIC_TRAIT, CHAIN_TRAIT, LENS_TRAIT, PathForm};
 pub(crate) use form::{camera_vertices, light_vertices};
-pub use lengths::{Deletion, Lengths, Replacement};
+pub use jumps::{Sizes, jump, tilt};
+pub use lengths::{Deletion, Growth, Lengths, Replacement};
 pub use scaled::Scaled;
 pub use strategies::{Measured, WholePath};
 pub use vertex::{Passage, WholeVertex};

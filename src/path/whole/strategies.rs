@@ -21,7 +21,8 @@ pub struct WholePath<'a> {
 pub struct Measured {
     /// f / r per channel, with the camera's importance for every place of the film, and filters left out.
     pub light: Rgb,
-    /// How light passes x₀ … xₖ; [`Passage::END`] at the ends.
+    /// How light passes x₀ … xₖ. At the ends, which it does not pass, nothing is lost, and the densities are those of the directions
+    /// in which subpaths leave them.
     pub passages: Vec<Passage>,
     /// The density of xₖ where a light subpath starts, over that with which it is chosen as seen from the vertex before, the way
     /// that strategy s = 1 does: 1 where no choice is made. A mutation that keeps xₖ alone of the light's end has p₍₁,ₖ₎ times this.
@@ -178,6 +179,8 @@ impl WholePath<'_> {
             }
         }
         measured.kept_light = position / sampled;
+        measured.passages[0].onward = camera.density(self.edge(0));
+        measured.passages[k].back = emission.direction;
     }
 
     /// Whether the strategy with t vertices from the camera can find the path.

@@ -118,7 +118,11 @@ pub fn propose_bidirectional(
         let [u, v, w, x] = std::array::from_fn(|_| stream.next_f64());
         let chosen = (length > 0).then(|| {
             let deletion = replacement.delete(length, u, v);
-            let vertices = replacement.insert(length, deletion, w)?;
+            let growth = replacement.growth(length, deletion);
+            if growth.least > growth.most {
+                return None;
+            }
+            let vertices = growth.sample(deletion.vertices, w);
             let strategies = paths.strategies(chain, length, deletion, vertices);
             let count = count(&strategies);
             (count > 0).then(|| {
@@ -169,7 +173,9 @@ pub fn weigh_bidirectional(
         let choices = f64::from(count(&strategies));
         let shares: f64 = strategies.map(|t| way.to.share(t)).sum();
         replacement.deletion(way.from.edges, deletion)
-            * replacement.insertion(way.from.edges, deletion, vertices)
+            * replacement
+                .growth(way.from.edges, deletion)
+                .probability(deletion.vertices, vertices)
             * (shares / choices)
     });
 }

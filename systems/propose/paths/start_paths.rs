@@ -111,6 +111,9 @@ pub fn start_paths(
                     run.film.put(chain, film.at(chain));
                 }
                 run.keep(kept, |depth| depth as usize, NOT_EMITTING);
+                if kept.count == 1 && kept.made > 1 {
+                    run.look_through(chain);
+                }
             }
         }
         match light_kept.at(chain) {
@@ -188,6 +191,17 @@ impl Run<'_> {
         if goes_on {
             self.directions.put(chain, ray.direction);
             self.activate(chain);
+        }
+    }
+
+    /// Moves the start of a ray that its mutation sends through another place on the film, where rays are parallel.
+    fn look_through(&mut self, chain: usize) {
+        let camera = &self.scene.camera;
+        if camera.is_directional() {
+            let lens = self.vertices.at(chain);
+            let ray = camera.ray_from(lens.surface.position, self.film.at(chain));
+            self.vertices
+                .put(chain, &lens_vertex(self.scene, ray.origin, ray.direction));
         }
     }
 

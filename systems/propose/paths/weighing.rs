@@ -2,8 +2,8 @@
 
 use super::super::super::tile::TilePlace;
 use crate::chain::{ForwardDensity, ProposedTarget, ReverseDensity};
-use crate::path::ChainTable;
 use crate::path::whole::*;
+use crate::path::{ChainTable, VERTEX_DISCRETE, VertexKind};
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::SystemParam;
 
@@ -14,12 +14,14 @@ pub struct Weighing<'w, 's> {
     edges: Read<'w, 's, PathEdges, ChainTable>,
     filters: Read<'w, 's, PathFilter, ChainTable>,
     kept_lights: Read<'w, 's, PathKeptLight, ChainTable>,
+    kinds: Read<'w, 's, VertexKind, PathTable>,
     shares: Read<'w, 's, PathShare, PathTable>,
     onwards: Read<'w, 's, PathOnward, PathTable>,
     backs: Read<'w, 's, PathBack, PathTable>,
     proposed_edges: Read<'w, 's, ProposedEdges, ChainTable>,
     proposed_filters: Read<'w, 's, ProposedFilter, ChainTable>,
     proposed_kept_lights: Read<'w, 's, ProposedKeptLight, ChainTable>,
+    proposed_kinds: Read<'w, 's, VertexKind, ProposedPathTable>,
     proposed_shares: Read<'w, 's, PathShare, ProposedPathTable>,
     proposed_onwards: Read<'w, 's, PathOnward, ProposedPathTable>,
     proposed_backs: Read<'w, 's, PathBack, ProposedPathTable>,
@@ -41,6 +43,7 @@ pub struct PathDensities<'a> {
     pub filter: f32,
     /// See [`Measured::kept_light`].
     pub kept_light: f64,
+    kinds: &'a [VertexKind],
     shares: &'a [PathShare],
     onwards: &'a [PathOnward],
     backs: &'a [PathBack],
@@ -54,6 +57,18 @@ impl PathDensities<'_> {
     pub fn share(&self, t: u32) -> f64 {
         let share = self.shares.at(self.place.path_vertex(self.chain, t as usize - 1));
         if t == 1 { share / f64::from(self.filter) } else { share }
+    }
+
+    /// t of the subpath from the camera that perturbations re-trace, see [`PathForm::camera_vertices`].
+    #[must_use]
+    pub fn camera_vertices(&self) -> u32 {
+        camera_vertices(self.edges as usize, |i| self.is_discrete(i as u32)) as u32
+    }
+
+    /// Whether vertex `i` scatters into one of a few directions.
+    #[must_use]
+    pub fn is_discrete(&self, i: u32) -> bool {
+        self.kinds.at(self.place.path_vertex(self.chain, i as usize)) == VERTEX_DISCRETE
     }
 
     /// The density of going on towards the light at vertex `i`.
@@ -82,6 +97,8 @@ pub struct Way<'a> {
     pub kept: [u32; 2],
     /// t of the strategy by which the mutation has made its proposal: of both ways for mutations that keep it.
     pub made: u32,
+    /// Whether it leads from the proposal to the current path.
+    pub is_back: bool,
 }
 
 impl Weighing<'_, '_> {
@@ -96,8 +113,14 @@ impl Weighing<'_, '_> {
         let (targets, edges, proposed_edges) = (self.targets.rows(), self.edges.rows(), self.proposed_edges.rows());
         let (filters, proposed_filters) = (self.filters.rows(), self.proposed_filters.rows());
         let (kept_lights, proposed_kept_lights) = (self.kept_lights.rows(), self.proposed_kept_lights.rows());
-        let current = (self.shares.rows(), self.onwards.rows(), self.backs.rows());
+        let current = (
+            self.kinds.rows(),
+            self.shares.rows(),
+            self.onwards.rows(),
+            self.backs.rows(),
+        );
         let proposed = (
+            self.proposed_kinds.rows(),
             self.proposed_shares.rows(),
             self.proposed_onwards.rows(),
             self.proposed_backs.rows(),
@@ -111,12 +134,13 @@ impl Weighing<'_, '_> {
             if targets.at(chain) <= 0.0 {
                 continue;
             }
-            let of = |edges: u32, filter, kept_light, (shares, onwards, backs)| PathDensities {
+            let of = |edges: u32, filter, kept_light, (kinds, shares, onwards, backs)| PathDensities {
                 place,
                 chain,
                 edges,
                 filter,
                 kept_light,
+                kinds,
                 shares,
                 onwards,
                 backs,
@@ -128,16 +152,17 @@ impl Weighing<'_, '_> {
                 proposed_kept_lights.at(chain),
                 proposed,
             );
-            let way = |from, to| Way {
+            let way = |from, to, is_back| Way {
                 from,
                 to,
                 kept: [camera_kept.at(chain), light_kept.at(chain)],
                 made: camera_made.at(chain),
+                is_back,
             };
-            forward.put(chain, libm::log(density(chain, &way(x, y))));
+            forward.put(chain, libm::log(density(chain, &way(x, y, false))));
             // Before its first state a chain has nothing to come back to.
             if x.edges > 0 {
-                reverse.put(chain, libm::log(density(chain, &way(y, x))));
+                reverse.put(chain, libm::log(density(chain, &way(y, x, true))));
             }
         }
     }

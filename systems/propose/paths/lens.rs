@@ -1,0 +1,109 @@
+//! `lens`: looks through a place of the film near the current one, follows the same kinds of mirrors and clear surfaces, and joins
+//! the first matt or rough point that it comes to with the next point of the current path (Veach and Guibas 1997, section 4.2;
+//! Veach 1997, §11.3.2).
+//!
+//! | setting | meaning | unit | default | others use |
+//! |---|---|---|---|---|
+//! | `weight` | how often it is tried, relative to the other mutations, where it is suitable | | 1 | 1 |
+//! | `smallest` | the smallest step on the film | pixels | 0.1 | 0.1 |
+//! | `covered` | share of the film that a disc of the largest step covers | | 0.05 | 0.05 |
+//!
+//! Suitable for paths E S* D (D|L), and E S* L where a light with a size is seen. It spreads light that was found over the pixels
+//! around; where paths behind the first matt point are hard to find, it is what makes pictures smooth.
+//!
+//! T(x→y): one strategy; steps on the film are as likely one way as the other.
+
+use super::super::super::chains::MutationLists;
+use super::super::super::list::{PROPOSE_LENS, STEER_LENS, WEIGH_LENS};
+use super::super::super::tile::{SceneRef, TilePlace};
+use super::film_jump::{FilmJumps, check_film_sizes, film_jump_density, film_sizes};
+use super::steering::Steering;
+use super::weighing::Weighing;
+use crate::chain::{MutationList, StateClass};
+use crate::path::whole::LENS_TRAIT;
+use crate::path::{ChainTable, DrawList};
+use crate::plan::{Mutation, Registered, StateSpace, SystemPlan, TablePlan};
+use crate::table::{Read, Rows};
+use bevy_ecs::system::Res;
+use serde::{Deserialize, Serialize};
+
+/// Settings of `lens`.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct LensPerturbation {
+    /// How often it is tried, relative to the other mutations, where it is suitable.
+    pub weight: f32,
+    /// The smallest step on the film, in pixels.
+    pub smallest: f32,
+    /// Share of the film that a disc of the largest step covers.
+    pub covered: f32,
+}
+
+impl Default for LensPerturbation {
+    fn default() -> Self {
+        Self {
+            weight: 1.0,
+            smallest: 0.1,
+            covered: 0.05,
+        }
+    }
+}
+
+impl Mutation for LensPerturbation {
+    const NAME: &'static str = "lens";
+    const ABOUT: &'static str = "the part of the path at the camera, through a place of the film nearby";
+    const SPACE: StateSpace = StateSpace::PATH;
+    const SELECTIVE: bool = true;
+
+    fn weight(&self) -> f32 {
+        self.weight
+    }
+
+    fn check(&self) -> Result<(), String> {
+        check_film_sizes(self.smallest, self.covered)
+    }
+
+    fn suitability(&self, state: StateClass) -> f32 {
+        if state.traits() & LENS_TRAIT != 0 { 1.0 } else { 0.0 }
+    }
+
+    fn systems(&self) -> Vec<SystemPlan> {
+        vec![
+            SystemPlan::new(PROPOSE_LENS, "the path is seen from a pixel nearby"),
+            SystemPlan::new(STEER_LENS, "by way of the same kinds of surfaces"),
+            SystemPlan::new(WEIGH_LENS, "each way is as likely as its strategy"),
+        ]
+    }
+
+    fn columns(&self, tables: &mut [TablePlan]) {
+        if let Some(chains) = tables.first_mut() {
+            chains.column::<DrawList>("perturbed subpaths wait for a direction");
+        }
+    }
+}
+
+/// Moves the place on the film for every chain that tries it.
+pub fn propose_lens(mutation: Res<Registered<LensPerturbation>>, scene: Res<SceneRef>, mut jumps: FilmJumps) {
+    let settings = &mutation.settings;
+    jumps.propose(
+        mutation.number,
+        film_sizes(&scene.0, settings.smallest, settings.covered),
+    );
+}
+
+/// Follows the discrete lobes of the current path; nothing else comes before the vertex that is joined.
+pub fn steer_lens(mutation: Res<Registered<LensPerturbation>>, mut steering: Steering) {
+    steering.steer(mutation.number, |direction, _, _| direction);
+}
+
+/// Writes the densities.
+pub fn weigh_lens(
+    mutation: Res<Registered<LensPerturbation>>,
+    place: Res<TilePlace>,
+    lists: Res<MutationLists>,
+    list: Read<MutationList, ChainTable>,
+    mut weighing: Weighing,
+) {
+    let list = list.rows();
+    let chains = lists.entries(mutation.number).map(|entry| list.at(entry) as usize);
+    weighing.weigh(&place, chains, |_, way| film_jump_density(way));
+}

@@ -1,0 +1,142 @@
+//! `multi_chain`: as `lens`, and on: where a matt or rough point is followed by a mirror or clear surface, it goes on near to where
+//! the current path goes, and so from chain to chain of such surfaces, up to the first two neighbours that can be joined, or a light
+//! that it meets (Veach and Guibas 1997, section 4.2; Veach 1997, §11.3.4).
+//!
+//! | setting | meaning | unit | default | others use |
+//! |---|---|---|---|---|
+//! | `weight` | how often it is tried, relative to the other mutations, where it is suitable | | 1 | 1 |
+//! | `smallest` | the smallest step on the film | pixels | 0.1 | 0.1 |
+//! | `covered` | share of the film that a disc of the largest step covers | | 0.05 | 0.05 |
+//! | `smallest_angle` | the smallest change of a direction | degrees | 0.0001 | 0.0001 |
+//! | `largest_angle` | the largest | degrees | 0.1 | 0.1 |
+//!
+//! Suitable for paths with several chains, such as a pool's floor seen through its surface. Of all perturbations it keeps the least
+//! of a path and is turned down most often.
+//!
+//! T(x→y): one strategy; steps on the film and changes of directions are as likely one way as the other.
+
+use super::super::super::chains::MutationLists;
+use super::super::super::list::{PROPOSE_MULTI_CHAIN, STEER_MULTI_CHAIN, WEIGH_MULTI_CHAIN};
+use super::super::super::tile::{SceneRef, TilePlace};
+use super::film_jump::{FilmJumps, check_film_sizes, film_jump_density, film_sizes};
+use super::steering::Steering;
+use super::weighing::Weighing;
+use crate::chain::{MutationList, StateClass};
+use crate::path::whole::{CHAIN_TRAIT, Sizes, tilt};
+use crate::path::{ChainTable, DrawList};
+use crate::plan::{Mutation, Registered, StateSpace, SystemPlan, TablePlan};
+use crate::sampling::Purpose;
+use crate::table::{Read, Rows};
+use bevy_ecs::system::Res;
+use serde::{Deserialize, Serialize};
+
+/// Settings of `multi_chain`.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct MultiChainPerturbation {
+    /// How often it is tried, relative to the other mutations, where it is suitable.
+    pub weight: f32,
+    /// The smallest step on the film, in pixels.
+    pub smallest: f32,
+    /// Share of the film that a disc of the largest step covers.
+    pub covered: f32,
+    /// The smallest change of a direction, in degrees.
+    pub smallest_angle: f32,
+    /// The largest change of a direction, in degrees.
+    pub largest_angle: f32,
+}
+
+impl Default for MultiChainPerturbation {
+    fn default() -> Self {
+        Self {
+            weight: 1.0,
+            smallest: 0.1,
+            covered: 0.05,
+            smallest_angle: 1e-4,
+            largest_angle: 0.1,
+        }
+    }
+}
+
+impl Mutation for MultiChainPerturbation {
+    const NAME: &'static str = "multi_chain";
+    const ABOUT: &'static str = "the part of the path at the camera, chain by chain of mirrors and clear surfaces";
+    const SPACE: StateSpace = StateSpace::PATH;
+    const SELECTIVE: bool = true;
+
+    fn weight(&self) -> f32 {
+        self.weight
+    }
+
+    fn check(&self) -> Result<(), String> {
+        check_film_sizes(self.smallest, self.covered)?;
+        let Self {
+            smallest_angle,
+            largest_angle,
+            ..
+        } = *self;
+        if smallest_angle > 0.0 && smallest_angle < largest_angle && largest_angle <= 180.0 {
+            Ok(())
+        } else {
+            Err(format!(
+                "`smallest_angle` and `largest_angle` are degrees above 0, up to 180, the second larger than the first, not \
+                 {smallest_angle} and {largest_angle}"
+            ))
+        }
+    }
+
+    fn suitability(&self, state: StateClass) -> f32 {
+        if state.traits() & CHAIN_TRAIT != 0 { 1.0 } else { 0.0 }
+    }
+
+    fn systems(&self) -> Vec<SystemPlan> {
+        vec![
+            SystemPlan::new(PROPOSE_MULTI_CHAIN, "the path is seen from a pixel nearby"),
+            SystemPlan::new(STEER_MULTI_CHAIN, "and goes on nearby behind every chain"),
+            SystemPlan::new(WEIGH_MULTI_CHAIN, "each way is as likely as its strategy"),
+        ]
+    }
+
+    fn columns(&self, tables: &mut [TablePlan]) {
+        if let Some(chains) = tables.first_mut() {
+            chains.column::<DrawList>("perturbed subpaths wait for a direction");
+        }
+    }
+}
+
+/// Moves the place on the film for every chain that tries it.
+pub fn propose_multi_chain(
+    mutation: Res<Registered<MultiChainPerturbation>>,
+    scene: Res<SceneRef>,
+    mut jumps: FilmJumps,
+) {
+    let settings = &mutation.settings;
+    jumps.propose(
+        mutation.number,
+        film_sizes(&scene.0, settings.smallest, settings.covered),
+    );
+}
+
+/// Follows the discrete lobes of the current path, and tilts the directions between them.
+pub fn steer_multi_chain(mutation: Res<Registered<MultiChainPerturbation>>, mut steering: Steering) {
+    let angles = Sizes {
+        smallest: f64::from(mutation.settings.smallest_angle).to_radians(),
+        largest: f64::from(mutation.settings.largest_angle).to_radians(),
+    };
+    steering.steer(mutation.number, |direction, key, depth| {
+        let mut stream = key.stream(Purpose::PERTURB, depth);
+        tilt(direction, angles.sample(stream.next_f64()), stream.next_f64())
+    });
+}
+
+/// Writes the densities.
+pub fn weigh_multi_chain(
+    mutation: Res<Registered<MultiChainPerturbation>>,
+    place: Res<TilePlace>,
+    lists: Res<MutationLists>,
+    list: Read<MutationList, ChainTable>,
+    mut weighing: Weighing,
+) {
+    let list = list.rows();
+    let chains = lists.entries(mutation.number).map(|entry| list.at(entry) as usize);
+    weighing.weigh(&place, chains, |_, way| film_jump_density(way));
+}
