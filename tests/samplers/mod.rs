@@ -10,6 +10,7 @@ mod discrete_lobes;
 mod emission;
 mod emitters;
 mod infinite;
+mod jumps;
 mod light_choice;
 mod lights;
 mod primary;

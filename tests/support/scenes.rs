@@ -57,6 +57,14 @@ pub fn inline(text: &str, size: u32) -> Arc<Scene> {
     compile(&source.unwrap_or_else(|error| panic!("{}", error.plain())), size)
 }
 
+/// A scene written in a test, with the film that it names.
+pub fn as_written(text: &str) -> Arc<Scene> {
+    let source = parse_scene("inline.ron", text, Format::Ron, Path::new("."));
+    let source = source.unwrap_or_else(|error| panic!("{}", error.plain()));
+    let flattened = flatten(&source).unwrap_or_else(|error| panic!("{}", error.plain()));
+    Arc::new(Scene::compile(&source.description, &flattened, SceneOverrides::default()).expect("a valid filter"))
+}
+
 /// A scene compiled with a square film of `size` x `size` pixels.
 pub fn compile(source: &SceneSource, size: u32) -> Arc<Scene> {
     let flattened = flatten(source).unwrap_or_else(|error| panic!("{}", error.plain()));

@@ -26,7 +26,7 @@ pub use columns::*;
 pub use form::{CAUSTIC_TRAIT, CHAIN_TRAIT, LENS_TRAIT, PathForm};
 pub(crate) use form::{camera_vertices, light_vertices};
 pub use jumps::{Sizes, jump, tilt};
-pub use lengths::{Deletion, Growth, Lengths, Replacement};
+pub use lengths::{Deletion, Growth, Lengths, Replacement, StrategyChoice};
 pub use scaled::Scaled;
 pub use strategies::{Measured, WholePath};
 pub use vertex::{Passage, WholeVertex};

@@ -172,8 +172,8 @@ impl WholePath<'_> {
             };
         }
         let mut ahead = Scaled::ONE;
-        for t in 1..=k + 1 {
-            densities[t] = ahead.by(densities[t]);
+        for (t, density) in densities.iter_mut().enumerate().skip(1) {
+            *density = ahead.by(*density);
             if t <= k {
                 ahead = ahead.times(onward(t - 1));
             }

@@ -3,13 +3,14 @@
 //! | setting | meaning | default |
 //! |---|---|---|
 //! | `weight` | how often it is tried, relative to the other mutations | 0.1 |
-//! | `ratio` | how much rarer it tries a path with an edge more, in (0, 1] | 0.75 |
+//! | `exponent` | how fast longer paths get rarer among those it tries: as (k + 2) to this power, from 0 to 16 | 2 |
 //!
 //! Bootstraps draw seeds with it, and what its proposals weigh makes the normalization surer while chains run. A little of it lets
-//! every chain reach any light. Longer paths want a larger `ratio`: they are tried, and found, more often, at the cost of shorter
-//! ones.
+//! every chain reach any light. Where long paths matter, such as between mirrors, a smaller `exponent` finds more of them, at the
+//! cost of shorter ones.
 //!
-//! T(x→y) does not depend on x: the probability of y's length, times the mean over its k + 1 strategies of their densities.
+//! T(x→y) does not depend on x: the probability of y's length, times the sum over its k + 1 strategies of the probability of each
+//! times its density.
 
 use super::super::super::chains::{Keys, MutationLists};
 use super::super::super::list::{PROPOSE_NEW_PATHS, WEIGH_NEW_PATHS};
@@ -18,7 +19,7 @@ use super::range::{PathRange, Ranges};
 use super::weighing::Weighing;
 use crate::chain::MutationList;
 use crate::path::ChainTable;
-use crate::path::whole::Lengths;
+use crate::path::whole::{Lengths, StrategyChoice};
 use crate::plan::{Mutation, Registered, StateSpace, SystemPlan};
 use crate::sampling::Purpose;
 use crate::table::{Read, Rows};
@@ -30,15 +31,15 @@ use serde::{Deserialize, Serialize};
 pub struct NewPath {
     /// How often it is tried, relative to the other mutations.
     pub weight: f32,
-    /// How much rarer it tries a path with an edge more.
-    pub ratio: f32,
+    /// How fast longer paths get rarer among those it tries.
+    pub exponent: f32,
 }
 
 impl Default for NewPath {
     fn default() -> Self {
         Self {
             weight: 0.1,
-            ratio: 0.75,
+            exponent: 2.0,
         }
     }
 }
@@ -49,7 +50,7 @@ impl NewPath {
         Lengths {
             shortest,
             longest,
-            ratio: f64::from(self.ratio),
+            exponent: f64::from(self.exponent),
         }
     }
 }
@@ -65,10 +66,10 @@ impl Mutation for NewPath {
     }
 
     fn check(&self) -> Result<(), String> {
-        if self.ratio > 0.0 && self.ratio <= 1.0 {
+        if (0.0..=16.0).contains(&self.exponent) {
             Ok(())
         } else {
-            Err(format!("`ratio` is a number above 0, up to 1, not {}", self.ratio))
+            Err(format!("`exponent` is a number from 0 to 16, not {}", self.exponent))
         }
     }
 
@@ -95,7 +96,7 @@ pub fn propose_new_paths(
     for chain in lists.entries(mutation.number).map(|entry| list.at(entry) as usize) {
         let mut stream = keys.at(chain).stream(Purpose::PERTURB, 0);
         let k = lengths.sample(stream.next_f64());
-        let t = 1 + ((stream.next_f64() * f64::from(k + 1)) as u32).min(k);
+        let t = StrategyChoice { length: k }.sample(stream.next_f64());
         ranges.put(
             &place,
             chain,
@@ -122,7 +123,8 @@ pub fn weigh_new_paths(
     let chains = lists.entries(mutation.number).map(|entry| list.at(entry) as usize);
     weighing.weigh(&place, chains, |_, way| {
         let k = way.to.edges;
-        let shares: f64 = (1..=k + 1).map(|t| way.to.share(t)).sum();
-        lengths.probability(k) * shares / f64::from(k + 1)
+        let strategy = StrategyChoice { length: k };
+        let drawn = (1..=k + 1).map(|t| strategy.probability(t) * way.to.share(t));
+        lengths.probability(k) * drawn.sum::<f64>()
     });
 }

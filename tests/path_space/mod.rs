@@ -1,0 +1,18 @@
+//! Chains that walk the space of paths, on cases that are known to be hard.
+
+mod colours;
+mod corridor;
+mod film_edges;
+mod mixed;
+mod scale;
+
+use crate::support::chains::Chains;
+use chainlight::plan::Technique;
+
+/// Chains in path space: `groups` groups of `chains`, each group with a bootstrap of `bootstrap` samples.
+fn paths(groups: u32, chains: u32, bootstrap: u32) -> Chains {
+    Chains {
+        technique: Technique::Mlt,
+        ..Chains::new(groups, chains, bootstrap)
+    }
+}
