@@ -8,7 +8,7 @@ use crate::path::ProposalTable;
 use crate::table::Table;
 use bevy_ecs::component::Component;
 use bevy_ecs::query::Without;
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 /// Marks the rows of the table of current paths' vertices.
 #[derive(Component, Clone, Copy, Debug, Default)]
@@ -63,6 +63,9 @@ columns! {
     pub LightVertices: u32;
     /// Depth at which a subpath is to end, and [`STEERED`] where its mutation says in which directions it goes.
     pub StopDepth: u32;
+
+    /// Where the first ray of a light subpath starts that its mutation steers and that comes from infinity.
+    pub SteeredOrigin: Vec3;
 
     /// The share of the strategy with d + 1 vertices from the camera in a path's density, at its vertex d.
     pub PathShare: f64;

@@ -41,15 +41,20 @@ pub fn jump(film: Vec2, size: f64, u: f64) -> Vec2 {
     (film.as_dvec2() + size * glam::DVec2::new(cos, sin)).as_vec2()
 }
 
+/// A step of a length across a unit direction, the way that `u` in [0, 1) chooses.
+#[must_use]
+pub fn aside(direction: Vec3, length: f64, u: f64) -> DVec3 {
+    let (across, along) = direction.as_dvec3().normalize().any_orthonormal_pair();
+    let (sin, cos) = libm::sincos(std::f64::consts::TAU * u);
+    (across * cos + along * sin) * length
+}
+
 /// A unit direction at `angle` to another, turned about it as `u` in [0, 1) chooses.
 #[must_use]
 pub fn tilt(direction: Vec3, angle: f64, u: f64) -> Vec3 {
     let axis = direction.as_dvec3().normalize();
-    let (across, along) = axis.any_orthonormal_pair();
-    let (sin, cos) = libm::sincos(std::f64::consts::TAU * u);
-    let aside: DVec3 = across * cos + along * sin;
     let (sin, cos) = libm::sincos(angle);
-    (axis * cos + aside * sin).normalize().as_vec3()
+    (axis * cos + aside(direction, sin, u)).normalize().as_vec3()
 }
 
 #[cfg(test)]

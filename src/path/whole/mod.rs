@@ -25,7 +25,7 @@ mod vertex;
 pub use columns::*;
 pub use form::{CAUSTIC_TRAIT, CHAIN_TRAIT, LENS_TRAIT, PathForm};
 pub(crate) use form::{camera_vertices, light_vertices};
-pub use jumps::{Sizes, jump, tilt};
+pub use jumps::{Sizes, aside, jump, tilt};
 pub use lengths::{Deletion, Growth, Lengths, Replacement, StrategyChoice};
 pub use scaled::Scaled;
 pub use strategies::{Measured, WholePath};

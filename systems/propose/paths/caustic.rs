@@ -8,11 +8,11 @@
 //! | `smallest` | the smallest step that is seen on the film, about | pixels | 0.1 | 0.1 |
 //! | `covered` | share of the film that a disc of the largest step covers, about | | 0.05 | 0.05 |
 //!
-//! Suitable for paths E D S* (D|L): caustics. Where light comes from infinity it proposes nothing, as such light has one direction.
+//! Suitable for paths E D S* (D|L): caustics. Light that comes from infinity keeps its direction, and comes from a place beside.
 //!
 //! The angle is so large that the light is moved by about as many pixels: that of a pixel, times the length of the edge at the lens
-//! over that of the path behind it. T(x→y): one strategy; angles are as likely one way as the other, except that those which are
-//! too small or too large for y cannot lead back.
+//! over that of the path behind it; light from infinity moves by the width of a pixel where the lens sees it. T(x→y): one strategy;
+//! steps are as likely one way as the other, except that those which are too small or too large for y cannot lead back.
 
 use super::super::super::chains::{Keys, MutationLists};
 use super::super::super::list::{PROPOSE_CAUSTICS, STEER_CAUSTICS, WEIGH_CAUSTICS};
@@ -34,8 +34,9 @@ use bevy_ecs::system::Res;
 use serde::{Deserialize, Serialize};
 
 columns! {
-    /// The angle by which a caustic perturbation has changed a direction, in radians.
-    pub CausticAngle: f64;
+    /// The angle by which a caustic perturbation has changed a direction, in radians; of light from infinity, how far it has moved
+    /// it, in scene units.
+    pub CausticStep: f64;
 }
 
 /// Settings of `caustic`.
@@ -89,23 +90,28 @@ impl Mutation for CausticPerturbation {
         if let Some(chains) = tables.first_mut() {
             chains
                 .column::<DrawList>("perturbed subpaths wait for a direction")
-                .column::<CausticAngle>("an angle must be one of those that lead back");
+                .column::<SteeredOrigin>("light from infinity comes from a place beside")
+                .column::<CausticStep>("a step must be one of those that lead back");
         }
     }
 }
 
-/// The angle at vertex `start` of a path that stands for a pixel.
-fn pixel_angle(scene: &Scene, vertex: impl Fn(usize) -> WholeVertex, start: usize) -> f64 {
+/// The angle at vertex `start` of a path that stands for a pixel; the width of a pixel where the lens sees the path, if light comes
+/// from infinity there.
+fn pixel_step(scene: &Scene, vertex: impl Fn(usize) -> WholeVertex, start: usize) -> f64 {
     let positions = |i: usize| vertex(i).surface.position.as_dvec3();
     let edge = |i: usize| positions(i).distance(positions(i + 1));
     let pixels = f64::from(scene.width) * f64::from(scene.height);
     // Of a camera of parallel rays its width.
     let angle = libm::sqrt(1.0 / (pixels * f64::from(scene.camera.density(vertex(1).surface.direction))));
     let seen = if scene.camera.is_directional() { 1.0 } else { edge(0) };
+    if vertex(start).kind == VERTEX_INFINITE {
+        return angle * seen;
+    }
     angle * seen / (1..start).map(edge).sum::<f64>()
 }
 
-/// Tilts the direction in which light leaves, for every chain that tries it.
+/// Tilts the direction in which light leaves, or moves light from infinity, for every chain that tries it.
 pub fn propose_caustics(
     mutation: Res<Registered<CausticPerturbation>>,
     scene: Res<SceneRef>,
@@ -117,11 +123,12 @@ pub fn propose_caustics(
     current: Vertices<PathTable>,
     mut ranges: Ranges,
     mut directions: Write<Direction, ChainTable>,
-    mut angles: Write<CausticAngle, ChainTable>,
+    mut origins: Write<SteeredOrigin, ChainTable>,
+    mut steps: Write<CausticStep, ChainTable>,
 ) {
     let sizes = film_sizes(&scene.0, mutation.settings.smallest, mutation.settings.covered);
     let (list, keys, edges, current) = (list.rows(), keys.columns(), edges.rows(), current.columns());
-    let (directions, angles) = (directions.rows(), angles.rows());
+    let (directions, origins, steps) = (directions.rows(), origins.rows(), steps.rows());
     for chain in lists.entries(mutation.number).map(|entry| list.at(entry) as usize) {
         let k = edges.at(chain) as usize;
         let vertex = |i: usize| current.at(place.path_vertex(chain, i));
@@ -131,21 +138,26 @@ pub fn propose_caustics(
         };
         let start = k + 1 - kept;
         let left = vertex(start);
-        if left.kind == VERTEX_INFINITE {
-            ranges.none(chain);
-            continue;
-        }
         let mut stream = keys.at(chain).stream(Purpose::PERTURB, 0);
-        let sizes = sizes.scaled(pixel_angle(&scene.0, vertex, start));
-        // Beyond half a turn there is no angle.
-        let angle = sizes.sample(stream.next_f64());
-        if !(angle > 0.0 && angle < std::f64::consts::PI) {
-            ranges.none(chain);
-            continue;
-        }
-        angles.put(chain, angle);
+        let step = sizes
+            .scaled(pixel_step(&scene.0, vertex, start))
+            .sample(stream.next_f64());
+        let u = stream.next_f64();
         let path = place.lights_from as usize + chain;
-        directions.put(path, tilt(-left.surface.direction, angle, stream.next_f64()));
+        let leaving = -left.surface.direction;
+        if left.kind == VERTEX_INFINITE {
+            let beside = aside(leaving, step, u) + vertex(start - 1).surface.position.as_dvec3();
+            origins.put(chain, scene.0.lights.beyond(beside.as_vec3(), -leaving));
+            directions.put(path, leaving);
+        } else {
+            // Beyond half a turn there is no angle.
+            if !(step > 0.0 && step < std::f64::consts::PI) {
+                ranges.none(chain);
+                continue;
+            }
+            directions.put(path, tilt(leaving, step, u));
+        }
+        steps.put(chain, step);
         let range = PathRange {
             kept: [1, kept as u32],
             made: [1, s as u32],
@@ -167,20 +179,20 @@ pub fn weigh_caustics(
     place: Res<TilePlace>,
     lists: Res<MutationLists>,
     list: Read<MutationList, ChainTable>,
-    angles: Read<CausticAngle, ChainTable>,
+    steps: Read<CausticStep, ChainTable>,
     current: Vertices<PathTable>,
     proposed: Vertices<ProposedPathTable>,
     mut weighing: Weighing,
 ) {
     let sizes = film_sizes(&scene.0, mutation.settings.smallest, mutation.settings.covered);
-    let (list, angles) = (list.rows(), angles.rows());
+    let (list, steps) = (list.rows(), steps.rows());
     let (current, proposed) = (current.columns(), proposed.columns());
     let chains = lists.entries(mutation.number).map(|entry| list.at(entry) as usize);
     weighing.weigh(&place, chains, |chain, way| {
         let vertices = if way.is_back { &proposed } else { &current };
         let start = way.from.edges + 1 - way.kept[1];
-        let angle = pixel_angle(&scene.0, |i| vertices.at(place.path_vertex(chain, i)), start as usize);
-        if sizes.scaled(angle).contains(angles.at(chain)) {
+        let unit = pixel_step(&scene.0, |i| vertices.at(place.path_vertex(chain, i)), start as usize);
+        if sizes.scaled(unit).contains(steps.at(chain)) {
             caustic_density(&way.to, start)
         } else {
             0.0

@@ -30,6 +30,7 @@ pub struct Asked<'w, 's> {
     camera_made: Read<'w, 's, CameraVertices, ChainTable>,
     light_made: Read<'w, 's, LightVertices, ChainTable>,
     stops: Read<'w, 's, StopDepth, ChainTable>,
+    origins: Read<'w, 's, SteeredOrigin, ChainTable>,
 }
 
 /// Current paths.
@@ -85,7 +86,7 @@ pub fn start_paths(
     };
     let (camera_kept, light_kept) = (asked.camera_kept.rows(), asked.light_kept.rows());
     let (camera_made, light_made) = (asked.camera_made.rows(), asked.light_made.rows());
-    let stops = asked.stops.rows();
+    let (stops, origins) = (asked.stops.rows(), asked.origins.rows());
     let (edges, lights) = (current.edges.rows(), current.lights.rows());
     let (pixels, film) = (current.pixels.rows(), current.film.rows());
     for chain in 0..place.chains as usize {
@@ -130,6 +131,9 @@ pub fn start_paths(
                 };
                 let last = edges.at(chain) as usize;
                 run.keep(kept, |depth| last - depth as usize, lights.at(chain));
+                if kept.count == 1 && kept.steered {
+                    run.shine_from(from_light, origins.at(chain));
+                }
             }
         }
     }
@@ -202,6 +206,15 @@ impl Run<'_> {
             let ray = camera.ray_from(lens.surface.position, self.film.at(chain));
             self.vertices
                 .put(chain, &lens_vertex(self.scene, ray.origin, ray.direction));
+        }
+    }
+
+    /// Moves the start of a ray that its mutation sends from elsewhere at infinity.
+    fn shine_from(&mut self, path: usize, origin: Vec3) {
+        let mut light = self.vertices.at(path);
+        if light.kind == VERTEX_INFINITE {
+            light.surface.position = origin;
+            self.vertices.put(path, &light);
         }
     }
 
