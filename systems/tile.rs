@@ -65,6 +65,8 @@ pub struct TilePlace {
     pub heuristic: Heuristic,
     /// The fewest edges of a path that chains look for; shorter ones are left to another technique.
     pub shortest: u32,
+    /// The most edges of a path, where they are fewer than the scene's.
+    pub longest: u32,
     /// The step about to run, counted from 0 over the whole render.
     pub step: u64,
 }

@@ -5,7 +5,7 @@ use super::output::note;
 use super::unused;
 use crate::path::bidirectional::Weights;
 use crate::path::mis::Heuristic;
-use crate::plan::{Base, Plan, PlanOptions, Registry, Technique, UnknownTechnique};
+use crate::plan::{Base, Direct, Plan, PlanOptions, Registry, StateSpace, Technique, UnknownTechnique};
 use crate::scene::{
     FilterDescription, Scene, SceneOverrides, Step, description::MAX_DEPTH_LIMIT, description::MAX_FILM_PIXELS,
 };
@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 pub struct SceneArgs {
     /// The scene file: RON, or JSON by its extension
     pub scene: PathBuf,
-    /// How to estimate the picture: pt, pt-reference, lt, bdpt, pssmlt, pssmlt-reference [default: the scene's, or pt]
+    /// How to estimate the picture: pt, pt-reference, lt, bdpt, pssmlt, pssmlt-reference, mlt [default: the scene's, or pt]
     #[arg(long, value_name = "NAME")]
     pub technique: Option<Technique>,
     /// Film size in pixels instead of the scene's, such as 640x480
@@ -55,6 +55,10 @@ pub struct StrategyArgs {
     /// How the ways in which pt and bdpt find a path share it: power or balance [default: power]
     #[arg(long, value_name = "NAME")]
     pub heuristic: Option<Heuristic>,
+    /// Samples of direct light per pixel for every 100 mutations per pixel of mlt, by path tracing: light on paths of at most 2
+    /// edges, which its chains then leave out. `chains` leaves it to them [default: 16]
+    #[arg(long, value_name = "N")]
+    pub direct: Option<Direct>,
 }
 
 /// Settings of mutations.
@@ -139,7 +143,7 @@ impl SceneArgs {
             base: self.strategies.base.unwrap_or_default(),
             strategy: self.strategies.strategy,
             heuristic: self.strategies.heuristic.unwrap_or_default(),
-            ..PlanOptions::default()
+            direct: self.strategies.direct.unwrap_or_default(),
         };
         let plan = Plan::with(&scene, technique, &options)?;
         Ok(Loaded {
@@ -179,8 +183,12 @@ pub fn settings(loaded: &Loaded) -> String {
         for planned in &chains.mutations {
             let _ = write!(settings, " {}={}", planned.mutation.name(), planned.mutation.settings());
         }
-        if loaded.plan.strategies.is_some() {
+        let space = loaded.plan.technique.space();
+        if space == Some(StateSpace::PRIMARY) && loaded.plan.strategies.is_some() {
             let _ = write!(settings, " base={}", Base::Bdpt);
+        }
+        if space == Some(StateSpace::PATH) {
+            let _ = write!(settings, " direct={}", loaded.plan.direct_by());
         }
     }
     if let Some(Weights::Only(s, t)) = loaded.plan.strategies.map(|strategies| strategies.weights) {

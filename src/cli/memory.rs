@@ -18,7 +18,9 @@ const COUNTS_BYTES: u64 = 64 << 10;
 pub fn needed(plan: &Plan, pixels: u32, threads: usize) -> u64 {
     let picture = PICTURE_BYTES * u64::from(pixels);
     let worlds = worlds(plan, pixels, threads);
+    let of_direct = plan.direct.as_ref().map_or(0, |direct| direct.tile.most_bytes());
     let tables = plan.tile.most_bytes().saturating_mul(worlds);
+    let tables = tables.saturating_add(of_direct.saturating_mul(threads as u64));
     // A bootstrap keeps what every sample weighs, and a world of chains what it counts.
     let samples = plan.chains.as_ref().map_or(0, |chains| {
         let counts = chains.counts;

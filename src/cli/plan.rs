@@ -2,7 +2,9 @@
 
 use super::load::SceneArgs;
 use super::output::{bytes, print};
-use crate::plan::{ChainPlan, Missing, MutationPlan, Plan, Registry, Stage, TablePlan};
+use crate::plan::{
+    ChainPlan, Missing, MutationPlan, PER_MUTATIONS, Plan, Registry, Stage, TablePlan, Technique, TilePlan,
+};
 use crate::render::{Built, BuiltTable, TileWorld, short};
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
@@ -27,6 +29,20 @@ struct Report<'a> {
     /// Light that the technique cannot find here.
     missing: Vec<MissingRow<'a>>,
     chains: Option<ChainRow>,
+    #[serde(flatten)]
+    tile: TileReport<'a>,
+    /// Direct light, where it is rendered apart from all other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    direct: Option<DirectReport<'a>>,
+    tracer: &'static str,
+    tracer_reason: &'a str,
+    tree_bytes: u64,
+    film_bytes: u64,
+}
+
+/// What a tile is built of.
+#[derive(Serialize)]
+struct TileReport<'a> {
     systems: Vec<SystemRow<'a>>,
     tables: Vec<TableRow<'a>>,
     tile_chains: u32,
@@ -34,10 +50,16 @@ struct Report<'a> {
     tile_bytes: u64,
     bytes_per_chain: u64,
     tiles: u32,
-    tracer: &'static str,
-    tracer_reason: &'a str,
-    tree_bytes: u64,
-    film_bytes: u64,
+}
+
+/// How direct light is rendered beside chains.
+#[derive(Serialize)]
+struct DirectReport<'a> {
+    technique: &'static str,
+    longest: u32,
+    samples_per_100_mutations: u32,
+    #[serde(flatten)]
+    tile: TileReport<'a>,
 }
 
 #[derive(Serialize)]
@@ -104,13 +126,10 @@ struct ColumnRow<'a> {
 /// A scene that cannot be loaded.
 pub fn run(args: &PlanArgs, registry: &Registry) -> Result<()> {
     let loaded = args.scene.load(registry)?;
-    // A world is built as a render would build it, but for the scene and the film, which only running systems look at.
-    let tile = TileWorld::new(&loaded.plan.tile, 0, |_| {});
-    let built = Built::read(&tile, &loaded.plan.tile);
-    built
-        .matches(&loaded.plan.tile)
-        .map_err(|difference| miette!("the tables built are not those planned: {difference}"))?;
-    let report = report(&loaded.plan, &built, loaded.scene.pixel_count());
+    let built = build(&loaded.plan.tile)?;
+    let direct = loaded.plan.direct.as_ref().map(|direct| build(&direct.tile));
+    let direct = direct.transpose()?;
+    let report = report(&loaded.plan, &built, direct.as_ref(), loaded.scene.pixel_count());
     if args.json {
         print(&serde_json::to_string_pretty(&report).into_diagnostic()?)
     } else {
@@ -118,8 +137,18 @@ pub fn run(args: &PlanArgs, registry: &Registry) -> Result<()> {
     }
 }
 
-fn report<'a>(plan: &'a Plan, built: &'a Built, pixels: u32) -> Report<'a> {
-    let effects = plan.effects.iter();
+/// What a tile really is made of.
+fn build(plan: &TilePlan) -> Result<Built> {
+    // A world is built as a render would build it, but for the scene and the film, which only running systems look at.
+    let tile = TileWorld::new(plan, 0, |_| {});
+    let built = Built::read(&tile, plan);
+    built
+        .matches(plan)
+        .map_err(|difference| miette!("the tables built are not those planned: {difference}"))?;
+    Ok(built)
+}
+
+fn tile_report<'a>(plan: &'a TilePlan, built: &'a Built, tiles: u32) -> TileReport<'a> {
     let inner = built.trace_loop.iter().map(|name| (name, true));
     let mut systems: Vec<SystemRow<'_>> = Vec::new();
     for (name, in_loop) in built.step.iter().map(|name| (name, false)) {
@@ -134,6 +163,25 @@ fn report<'a>(plan: &'a Plan, built: &'a Built, pixels: u32) -> Report<'a> {
     }
     let tables: Vec<TableRow<'_>> = built.tables.iter().filter_map(|table| table_row(plan, table)).collect();
     let tile_bytes = tables.iter().map(|table| table.bytes).sum();
+    TileReport {
+        systems,
+        tables,
+        tile_chains: plan.size,
+        tile_reason: &plan.reason,
+        tile_bytes,
+        bytes_per_chain: tile_bytes / u64::from(plan.size),
+        tiles,
+    }
+}
+
+fn report<'a>(plan: &'a Plan, built: &'a Built, of_direct: Option<&'a Built>, pixels: u32) -> Report<'a> {
+    let effects = plan.effects.iter();
+    let direct = plan.direct.as_ref().zip(of_direct).map(|(direct, built)| DirectReport {
+        technique: Technique::Pt.name(),
+        longest: direct.longest(),
+        samples_per_100_mutations: direct.samples,
+        tile: tile_report(&direct.tile, built, pixels.div_ceil(direct.tile.size)),
+    });
     Report {
         technique: plan.technique.name(),
         effects: effects
@@ -145,13 +193,8 @@ fn report<'a>(plan: &'a Plan, built: &'a Built, pixels: u32) -> Report<'a> {
             .collect(),
         missing: plan.missing.iter().map(missing_row).collect(),
         chains: plan.chains.as_ref().map(chain_row),
-        systems,
-        tables,
-        tile_chains: plan.tile.size,
-        tile_reason: &plan.tile.reason,
-        tile_bytes,
-        bytes_per_chain: tile_bytes / u64::from(plan.tile.size),
-        tiles: plan.tiles(pixels),
+        tile: tile_report(&plan.tile, built, plan.tiles(pixels)),
+        direct,
         tracer: plan.tracer,
         tracer_reason: &plan.tracer_reason,
         tree_bytes: plan.tree_bytes,
@@ -184,9 +227,9 @@ fn chain_row(plan: &ChainPlan) -> ChainRow {
     }
 }
 
-fn system_row<'a>(plan: &Plan, name: &'a str, in_trace_loop: bool) -> Option<SystemRow<'a>> {
+fn system_row<'a>(plan: &TilePlan, name: &'a str, in_trace_loop: bool) -> Option<SystemRow<'a>> {
     let name = short(name);
-    let planned = plan.tile.systems.iter().find(|system| system.spec.name() == name)?;
+    let planned = plan.systems.iter().find(|system| system.spec.name() == name)?;
     Some(SystemRow {
         name,
         stage: planned.spec.stage().name(),
@@ -195,8 +238,8 @@ fn system_row<'a>(plan: &Plan, name: &'a str, in_trace_loop: bool) -> Option<Sys
     })
 }
 
-fn table_row<'a>(plan: &Plan, built: &'a BuiltTable) -> Option<TableRow<'a>> {
-    let planned: &TablePlan = plan.tile.tables.iter().find(|table| table.id == built.id)?;
+fn table_row<'a>(plan: &TilePlan, built: &'a BuiltTable) -> Option<TableRow<'a>> {
+    let planned: &TablePlan = plan.tables.iter().find(|table| table.id == built.id)?;
     let columns = built.columns.iter().filter_map(|column| {
         let reason = planned
             .columns
@@ -248,6 +291,45 @@ fn text(report: &Report<'_>) -> String {
             let _ = writeln!(out, "  {name:<20} {about}; {settings}: {}", mutation.reason);
         }
     }
+    tile_text(&mut out, &report.tile);
+    if let Some(direct) = &report.direct {
+        let _ = writeln!(
+            out,
+            "\ndirect light, which chains leave out: {}, paths of at most {} edges, {} samples per pixel for every \
+             {PER_MUTATIONS} mutations per pixel",
+            direct.technique, direct.longest, direct.samples_per_100_mutations
+        );
+        tile_text(&mut out, &direct.tile);
+    }
+    let _ = write!(out, "\n{}\n", tile_line("tile", &report.tile));
+    if let Some(direct) = &report.direct {
+        let _ = writeln!(out, "{}", tile_line("direct", &direct.tile));
+    }
+    let _ = write!(
+        out,
+        "tracer     {} ({}), {}\nfilm       {}",
+        report.tracer,
+        report.tracer_reason,
+        bytes(report.tree_bytes),
+        bytes(report.film_bytes)
+    );
+    out
+}
+
+/// A tile's size, and why.
+fn tile_line(name: &str, tile: &TileReport<'_>) -> String {
+    format!(
+        "{name:<10} {} chains ({}), {} of tables, {} B a chain; {} tiles",
+        tile.tile_chains,
+        tile.tile_reason,
+        bytes(tile.tile_bytes),
+        tile.bytes_per_chain,
+        tile.tiles
+    )
+}
+
+/// A tile's systems and tables.
+fn tile_text(out: &mut String, report: &TileReport<'_>) {
     out.push_str("\nsystems, in the order in which they run\n");
     for stage in Stage::ALL {
         for system in report.systems.iter().filter(|system| system.stage == stage.name()) {
@@ -270,18 +352,4 @@ fn text(report: &Report<'_>) -> String {
             let _ = writeln!(out, "  {:<22} {:>3} B  {}", column.name, column.bytes, column.reason);
         }
     }
-    let _ = write!(
-        out,
-        "\ntile       {} chains ({}), {} of tables, {} B a chain; {} tiles\ntracer     {} ({}), {}\nfilm       {}",
-        report.tile_chains,
-        report.tile_reason,
-        bytes(report.tile_bytes),
-        report.bytes_per_chain,
-        report.tiles,
-        report.tracer,
-        report.tracer_reason,
-        bytes(report.tree_bytes),
-        bytes(report.film_bytes)
-    );
-    out
 }

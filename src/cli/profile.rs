@@ -7,9 +7,10 @@ use super::target::check_writable;
 use super::{interrupt, memory};
 use crate::film::write_file;
 use crate::plan::{Registry, Stage, SystemSpec, Traces};
-use crate::render::{Rendering, drive, start};
-use crate::systems::Span;
+use crate::render::{DirectLight, Rendering, TileWorld, drive, start};
 use crate::systems::list::TRACE_LOOP;
+use crate::systems::tile::Counters;
+use crate::systems::{Span, SystemCost};
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use serde::Serialize;
@@ -63,6 +64,41 @@ struct Report {
     systems: Vec<Cost>,
     /// Time in the schedule around the systems: the price of running them from one.
     schedule: Cost,
+    /// The same of direct light, where it is rendered apart, with shares of the time of both.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    direct: Option<Box<Report>>,
+}
+
+/// What a part of a render has counted, and what it cost.
+struct Part {
+    technique: &'static str,
+    /// Steps of chains; whole samples of every pixel.
+    steps: u64,
+    counters: Counters,
+    costs: Vec<SystemCost>,
+    busy: Duration,
+}
+
+impl Part {
+    fn of(render: &dyn Rendering) -> Self {
+        Self {
+            technique: render.plan().technique.name(),
+            steps: render.steps(),
+            counters: render.counters(),
+            costs: render.costs(),
+            busy: render.busy_time(),
+        }
+    }
+
+    fn of_direct(direct: &DirectLight) -> Self {
+        Self {
+            technique: "direct light by pt",
+            steps: direct.samples_per_pixel() as u64,
+            counters: direct.counters(),
+            costs: direct.costs(),
+            busy: direct.busy_time(),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -95,7 +131,7 @@ pub fn run(args: &ProfileArgs, registry: &Registry) -> Result<()> {
     let (scene, plan) = (Arc::clone(&loaded.scene), loaded.plan.clone());
     let mut render = start(scene, plan, args.seed, threads, &interrupt, &|_| {})?;
     if args.trace.is_some() {
-        render.for_each_world(&mut |_, world| world.record_spans(TRACE_EVENTS));
+        for_each_world(&*render, &mut |_, world| world.record_spans(TRACE_EVENTS));
     }
     let began = Instant::now();
     let outcome = drive(&mut *render, budget, &interrupt, &|_| {});
@@ -110,16 +146,42 @@ pub fn run(args: &ProfileArgs, registry: &Registry) -> Result<()> {
     }
 }
 
+/// Lets `look` see every world of all parts.
+fn for_each_world(render: &dyn Rendering, look: &mut dyn FnMut(usize, &mut TileWorld)) {
+    let mut worlds = 0;
+    render.for_each_world(&mut |number, world| {
+        worlds = worlds.max(number + 1);
+        look(number, world);
+    });
+    if let Some(direct) = render.direct() {
+        direct.for_each_world(&mut |number, world| look(worlds + number, world));
+    }
+}
+
 fn report(render: &dyn Rendering, wall: Duration) -> Report {
-    let (costs, counters) = (render.costs(), render.counters());
+    let direct = render.direct().map(Part::of_direct);
+    let own = Part::of(render);
+    let both = own.busy + direct.as_ref().map_or(Duration::ZERO, |part| part.busy);
+    let of_part = |part: &Part| report_of(render, part, wall, both);
+    let direct = direct.as_ref().map(|part| Box::new(of_part(part)));
+    Report {
+        direct,
+        ..of_part(&own)
+    }
+}
+
+/// The report of a part of a render, with shares of `all`, the time of all parts.
+fn report_of(render: &dyn Rendering, part: &Part, wall: Duration, all: Duration) -> Report {
+    let (costs, counters) = (&part.costs, part.counters);
     let paths = counters.decisions;
-    let total = render.busy_time().as_nanos() as u64;
+    let total = part.busy.as_nanos() as u64;
+    let all = all.as_nanos() as f64;
     let cost = |name, stage: &'static str, runs, nanoseconds: u64, rays: u64| Cost {
         name,
         stage,
         runs,
         seconds: nanoseconds as f64 * 1e-9,
-        share: nanoseconds as f64 / total.max(1) as f64,
+        share: nanoseconds as f64 / all.max(1.0),
         ns_per_path: nanoseconds as f64 / paths.max(1) as f64,
         rays,
         ns_per_ray: (rays > 0).then(|| nanoseconds as f64 / rays as f64),
@@ -157,10 +219,10 @@ fn report(render: &dyn Rendering, wall: Duration) -> Report {
     });
     let in_systems: u64 = costs.iter().filter(|c| !is_loop(c.spec)).map(|c| c.nanoseconds).sum();
     Report {
-        technique: render.plan().technique.name(),
+        technique: part.technique,
         threads: render.threads(),
         wall_seconds: wall.as_secs_f64(),
-        steps: render.steps(),
+        steps: part.steps,
         per_pixel: paths as f64 / f64::from(render.scene().pixel_count()),
         paths,
         rays: counters.rays,
@@ -176,6 +238,7 @@ fn report(render: &dyn Rendering, wall: Duration) -> Report {
             total.saturating_sub(in_systems),
             0,
         ),
+        direct: None,
     }
 }
 
@@ -224,7 +287,11 @@ fn text(report: &Report) -> String {
         }
     }
     row("schedule", "", &report.schedule);
-    out.trim_end().to_owned()
+    let mut out = out.trim_end().to_owned();
+    if let Some(direct) = &report.direct {
+        out += &format!("\n\n{}", text(direct));
+    }
+    out
 }
 
 /// One complete event ("X") of the trace event format; times in microseconds.
@@ -241,7 +308,7 @@ struct TraceEvent {
 
 fn trace_events(render: &dyn Rendering, origin: Instant) -> Result<Vec<u8>> {
     let mut events = Vec::new();
-    render.for_each_world(&mut |thread, world| {
+    for_each_world(render, &mut |thread, world| {
         events.extend(world.profile().spans.iter().map(|span: &Span| TraceEvent {
             name: span.spec.name(),
             cat: span.spec.stage().name(),

@@ -8,7 +8,7 @@ use super::target::check_writable;
 use super::{interrupt, memory};
 use crate::film::{PictureMetadata, ToneMap, write_exr, write_file, write_png};
 use crate::plan::Registry;
-use crate::render::{Findings, Progress, RenderError, drive, resume, start};
+use crate::render::{Findings, Progress, RenderError, Rendering, drive, resume, start};
 use crate::scene::description::EXPOSURE;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -112,7 +112,7 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
     if let (Some(chains), Some(findings)) = (render.as_chains(), &findings) {
         picture = chains.with_layers(picture, findings);
     }
-    write_exr(&output, &picture, &metadata(args, &loaded, outcome.steps))?;
+    write_exr(&output, &picture, &metadata(args, &loaded, &*render))?;
     let stops = args.exposure.unwrap_or(loaded.exposure);
     let tone = ToneMap::automatic(picture.view()).brighter(stops);
     write_png(&png, picture.view(), tone)?;
@@ -155,8 +155,9 @@ fn read_saved(path: &Path) -> Result<(PathBuf, Vec<u8>)> {
     Ok((path.to_owned(), bytes))
 }
 
-fn metadata(args: &RenderArgs, loaded: &Loaded, steps: u64) -> PictureMetadata {
-    let metadata = PictureMetadata {
+fn metadata(args: &RenderArgs, loaded: &Loaded, render: &dyn Rendering) -> PictureMetadata {
+    let steps = render.steps();
+    let mut metadata = PictureMetadata {
         scene: scene_name(&args.scene.scene),
         technique: loaded.plan.technique.name().to_owned(),
         settings: settings(loaded),
@@ -165,13 +166,14 @@ fn metadata(args: &RenderArgs, loaded: &Loaded, steps: u64) -> PictureMetadata {
         software: concat!("chainlight ", env!("CARGO_PKG_VERSION")).to_owned(),
         ..PictureMetadata::default()
     };
-    match &loaded.plan.chains {
-        Some(chains) => {
-            let mutations = chains.counts.mutations_per_pixel(steps, loaded.scene.pixel_count());
-            metadata.with("mutations_per_pixel", mutations.to_string())
-        }
-        None => metadata,
+    if let Some(chains) = &loaded.plan.chains {
+        let mutations = chains.counts.mutations_per_pixel(steps, loaded.scene.pixel_count());
+        metadata = metadata.with("mutations_per_pixel", mutations.to_string());
     }
+    if let Some(direct) = render.direct() {
+        metadata = metadata.with("direct_samples_per_pixel", direct.samples_per_pixel().to_string());
+    }
+    metadata
 }
 
 fn default_output(scene: &Path) -> PathBuf {

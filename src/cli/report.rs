@@ -5,7 +5,7 @@ use super::output::{count, note};
 use super::render::RenderArgs;
 use crate::film::{ImageView, Picture, ToneMap};
 use crate::plan::Plan;
-use crate::render::{ChainRender, Findings, Outcome, Rendering, Stop, blank};
+use crate::render::{ChainRender, DirectLight, Findings, Outcome, Rendering, Stop, blank};
 use crate::stats::error::PictureError;
 use serde::Serialize;
 use std::path::Path;
@@ -33,6 +33,8 @@ pub(super) struct Report {
     render_seconds: f64,
     samples: u64,
     samples_per_second: f64,
+    /// Samples of direct light per pixel, where it is rendered apart: they are not among the above, but in all that follows.
+    direct_samples_per_pixel: Option<f64>,
     rays: u64,
     segments: u64,
     /// Mean over pixels and channels, W sr⁻¹ m⁻².
@@ -65,6 +67,8 @@ impl Report {
         chains: Option<Findings>,
     ) -> Self {
         let counters = render.counters();
+        let direct = render.direct();
+        let of_direct = direct.map(DirectLight::counters).unwrap_or_default();
         let tally = render.tally();
         let mean = channel_mean(picture.view(), f64::from);
         let errors = ImageView {
@@ -104,13 +108,14 @@ impl Report {
             render_seconds: seconds,
             samples: counters.decisions,
             samples_per_second: counters.decisions as f64 / seconds.max(1e-9),
-            rays: counters.rays,
-            segments: counters.segments,
+            direct_samples_per_pixel: direct.map(DirectLight::samples_per_pixel),
+            rays: counters.rays + of_direct.rays,
+            segments: counters.segments + of_direct.segments,
             mean,
             error,
             rms_error,
             relative_rms_error: rms_error.filter(|_| mean > 0.0).map(|error| error / mean),
-            non_finite: counters.non_finite + tally.non_finite,
+            non_finite: counters.non_finite + of_direct.non_finite + tally.non_finite,
             first_non_finite: counters.first_non_finite,
             saturated: tally.saturated,
             vanished: tally.vanished,
@@ -144,6 +149,9 @@ impl Report {
              {} {what} a second\n",
             count(self.samples_per_second)
         );
+        if let Some(samples) = self.direct_samples_per_pixel {
+            out += &format!("direct light apart: {samples} samples per pixel\n");
+        }
         let error = self.error.map(|error| {
             let [low, high] = error.interval;
             let (error, low, high) = (100.0 * error.rms, 100.0 * low, 100.0 * high);

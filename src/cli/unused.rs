@@ -1,8 +1,8 @@
 //! Options that would change nothing with the technique they are given for: refused, since whoever gives one expects it to.
 
-use super::load::SceneArgs;
+use super::load::{SceneArgs, StrategyArgs};
 use crate::path::mis::Heuristic;
-use crate::plan::{Base, Registry, StateSpace, Technique};
+use crate::plan::{Base, Direct, Registry, StateSpace, Technique};
 use crate::scene::description::MAX_DEPTH_LIMIT;
 use miette::{Result, miette};
 
@@ -26,6 +26,9 @@ pub fn refuse(args: &SceneArgs, technique: Technique, max_depth: u32, mutations:
             help = format!("leave --base out; for chains over {base} add --technique pssmlt"),
             "--base {base} has no effect with {technique}: it says what chains in primary sample space run over, and {own}"
         ));
+    }
+    if let Some(direct) = strategies.direct {
+        refuse_direct(direct, technique, max_depth)?;
     }
     let both_ends = technique == Technique::Bdpt || (has_base && strategies.base == Some(Base::Bdpt));
     if let Some((s, t)) = strategies.strategy {
@@ -63,18 +66,48 @@ pub fn refuse(args: &SceneArgs, technique: Technique, max_depth: u32, mutations:
         }
     }
     if let Some(heuristic) = strategies.heuristic {
-        refuse_heuristic(heuristic, technique, strategies.strategy)?;
+        refuse_heuristic(heuristic, technique, max_depth, strategies)?;
+    }
+    Ok(())
+}
+
+/// Refuses to render direct light apart where nothing else would be left, or where chains do not tell it from other light.
+fn refuse_direct(direct: Direct, technique: Technique, max_depth: u32) -> Result<()> {
+    if technique != Technique::Mlt {
+        let own = if technique.has_chains() {
+            "a state of its chains may bring light of paths of any length"
+        } else {
+            "it has no chains that could leave direct light out"
+        };
+        return Err(miette!(
+            help = "leave --direct out, or render with --technique mlt",
+            "--direct {direct} has no effect with {technique}: {own}"
+        ));
+    }
+    if direct != direct.within(max_depth) {
+        return Err(miette!(
+            help = "leave --direct out for chains, take --technique pt, or raise --max-depth",
+            "--direct {direct} has no effect with paths of at most {max_depth} edges: all of it is direct light, which leaves \
+             nothing to chains, so they look for all of it"
+        ));
     }
     Ok(())
 }
 
 /// Refuses a heuristic where no weights are made of it.
-fn refuse_heuristic(heuristic: Heuristic, technique: Technique, strategy: Option<(u32, u32)>) -> Result<()> {
-    if technique == Technique::Mlt {
+fn refuse_heuristic(
+    heuristic: Heuristic,
+    technique: Technique,
+    max_depth: u32,
+    strategies: &StrategyArgs,
+) -> Result<()> {
+    let direct = strategies.direct.unwrap_or_default().within(max_depth);
+    if technique == Technique::Mlt && direct == Direct::Chains {
         return Err(miette!(
-            help = "leave --heuristic out; pt, bdpt and pssmlt weigh their ways to find a path by it",
-            "--heuristic {heuristic} has no effect with mlt: its chains sample paths in proportion to their light, however they \
-             were found"
+            help = "leave --heuristic out; pt, bdpt and pssmlt weigh their ways to find a path by it, and mlt those of direct \
+                    light that is rendered apart",
+            "--heuristic {heuristic} has no effect with mlt whose chains look for direct light too: they sample paths in \
+             proportion to their light, however they were found"
         ));
     }
     if technique == Technique::Lt {
@@ -83,7 +116,7 @@ fn refuse_heuristic(heuristic: Heuristic, technique: Technique, strategy: Option
             "--heuristic {heuristic} has no effect with lt: every path has one way to be found, and counts fully"
         ));
     }
-    if let Some((s, t)) = strategy {
+    if let Some((s, t)) = strategies.strategy {
         return Err(miette!(
             help = "leave --heuristic or --strategy out",
             "--heuristic {heuristic} has no effect with --strategy {s},{t}: the only strategy has weight one"

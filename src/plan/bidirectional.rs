@@ -44,7 +44,7 @@ impl BothEnds<'_> {
             systems.push(SystemPlan::new(START_CAMERA_PATHS, "a subpath starts at the camera"));
         }
         systems.push(SystemPlan::new(START_LIGHT_PATHS, "a subpath starts at a light"));
-        systems.extend(walks(self.scene, self.effects));
+        systems.extend(walks(self.scene, self.effects, self.scene.max_depth));
         systems.extend([
             SystemPlan::new(JOIN_LOOP, "every strategy joins the subpaths in its own way"),
             SystemPlan::new(OFFER_CONNECTIONS, "what each would bring"),

@@ -29,7 +29,7 @@ fn systems(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> {
         SystemPlan::new(START_PATHS, "mutations keep parts of paths"),
     ];
     if is_on(effects, Effect::Emission) {
-        systems.extend(walks(scene, effects));
+        systems.extend(walks(scene, effects, scene.max_depth));
         if let Some(goes_on) = systems.iter_mut().find(|system| system.spec == CONTINUE_PATHS) {
             *goes_on = SystemPlan::new(CONTINUE_TO_STOP, "mutations say how long subpaths are");
         }

@@ -5,6 +5,7 @@
 
 mod bidirectional;
 mod chains;
+mod direct;
 mod effect;
 mod missing;
 mod mlt;
@@ -20,6 +21,7 @@ mod technique;
 mod tile;
 
 pub use chains::{ChainCounts, ChainPlanError, ChainSettings, StateSystems, chain_tile, choose_mutations};
+pub use direct::{Direct, DirectPlan, PER_MUTATIONS, is_direct};
 pub use effect::{Effect, EffectPlan};
 pub use missing::Missing;
 pub use mutation::{
@@ -52,9 +54,8 @@ pub struct PlanOptions {
     pub strategy: Option<(u32, u32)>,
     /// How weights are made of densities, where strategies share paths.
     pub heuristic: Heuristic,
-    /// The fewest edges of a path that chains in path space look for: 1 for all light, 3 where direct light is left to another
-    /// technique.
-    pub shortest: u32,
+    /// Who renders direct light beside chains in path space.
+    pub direct: Direct,
 }
 
 impl Default for PlanOptions {
@@ -66,7 +67,7 @@ impl Default for PlanOptions {
             base: Base::default(),
             strategy: None,
             heuristic: Heuristic::default(),
-            shortest: 1,
+            direct: Direct::default(),
         }
     }
 }
@@ -93,6 +94,8 @@ pub struct Plan {
     pub tile: TilePlan,
     /// The chains, for techniques that run some.
     pub chains: Option<ChainPlan>,
+    /// How direct light is rendered, where chains leave it out.
+    pub direct: Option<DirectPlan>,
     /// How subpaths are joined, for techniques with both ends.
     pub strategies: Option<Strategies>,
     /// Films that steps take turns among, where independent samples bring light to many pixels; otherwise 0.
@@ -158,11 +161,12 @@ impl Plan {
     pub fn with(scene: &Scene, technique: Technique, options: &PlanOptions) -> Result<Self, ChainPlanError> {
         let effects = effect::effects(scene);
         let mut chains = None;
+        let mut direct = None;
         let mut strategies = None;
         let mut tile = match technique {
             Technique::Pt => TilePlan::new(
-                path_tracing::systems(scene, &effects),
-                path_tracing::tables(scene, &effects),
+                path_tracing::systems(scene, &effects, scene.max_depth),
+                path_tracing::tables(scene, &effects, scene.max_depth),
                 options.tile_size,
             ),
             Technique::PtReference => TilePlan::new(
@@ -194,7 +198,17 @@ impl Plan {
                 strategies = Some(Strategies::default());
                 let states = mlt::states(scene, &effects);
                 let mut tile = chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size);
-                tile.shortest = options.shortest;
+                let by = options.direct.within(scene.max_depth);
+                tile.shortest = by.shortest_of_chains();
+                if let Direct::Apart(samples) = by {
+                    direct = Some(DirectPlan::new(
+                        scene,
+                        &effects,
+                        samples,
+                        options.heuristic,
+                        options.tile_size,
+                    ));
+                }
                 chains = Some(ChainPlan { counts, mutations });
                 tile
             }
@@ -219,17 +233,17 @@ impl Plan {
             0
         };
         let films = chains.as_ref().map_or(splat_films, |plan| plan.counts.groups);
-        let film_bytes = if films > 0 {
-            u64::from(films) * GroupFilm::bytes(width, height)
-        } else {
-            Film::bytes(width, height)
-        };
+        let mut film_bytes = u64::from(films) * GroupFilm::bytes(width, height);
+        if films == 0 || direct.is_some() {
+            film_bytes += Film::bytes(width, height);
+        }
         Ok(Self {
             technique,
             missing: missing::missing(scene, technique, options.base),
             effects,
             tile,
             chains,
+            direct,
             strategies,
             splat_films,
             tracer: "binary tree, one ray after another",
@@ -249,6 +263,13 @@ impl Plan {
             Some(plan) => plan.counts.groups * plan.counts.chains.div_ceil(self.tile.size),
             None => pixels.div_ceil(self.tile.size),
         }
+    }
+
+    /// Who renders direct light: where it is not rendered apart, the technique's samples or chains do.
+    #[must_use]
+    pub fn direct_by(&self) -> Direct {
+        let apart = self.direct.as_ref().map(|direct| Direct::Apart(direct.samples));
+        apart.unwrap_or(Direct::Chains)
     }
 
     /// Whether `effect` is on.

@@ -30,8 +30,8 @@ pub(super) fn scatter_lists(scene: &Scene) -> TablePlan {
     table
 }
 
-/// The systems of the trace loop that walk paths, whichever end they start at.
-pub(super) fn walks(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> {
+/// The systems of the trace loop that walk paths of at most `max_depth` edges, whichever end they start at.
+pub(super) fn walks(scene: &Scene, effects: &[EffectPlan], max_depth: u32) -> Vec<SystemPlan> {
     let mut systems = vec![
         SystemPlan::new(TRACE_LOOP, "paths are traced until none waits for a ray"),
         SystemPlan::new(EMIT_RAYS, "active chains wait for a ray"),
@@ -45,7 +45,7 @@ pub(super) fn walks(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> {
         }
     }
     if scatters(effects) {
-        let reason = if scene.max_depth > roulette::FIRST_DEPTH {
+        let reason = if max_depth > roulette::FIRST_DEPTH {
             "paths go on, beyond depth 5 by roulette"
         } else {
             "paths go on until max_depth, before roulette"
@@ -55,11 +55,12 @@ pub(super) fn walks(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> {
     systems
 }
 
-pub(super) fn systems(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> {
+/// The systems of paths of at most `max_depth` edges.
+pub(super) fn systems(scene: &Scene, effects: &[EffectPlan], max_depth: u32) -> Vec<SystemPlan> {
     let mut systems = vec![SystemPlan::new(ASSIGN_PIXELS, "each chain samples one pixel per step")];
     if is_on(effects, Effect::Emission) {
         systems.push(SystemPlan::new(START_CAMERA_PATHS, "paths start at the camera"));
-        systems.extend(walks(scene, effects));
+        systems.extend(walks(scene, effects, max_depth));
         if is_on(effects, Effect::DirectLight) {
             systems.push(SystemPlan::new(
                 CONNECT_LIGHTS,
@@ -83,11 +84,12 @@ pub(super) fn systems(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> 
     systems
 }
 
-pub(super) fn tables(scene: &Scene, effects: &[EffectPlan]) -> Vec<TablePlan> {
+/// The tables of the same.
+pub(super) fn tables(scene: &Scene, effects: &[EffectPlan], max_depth: u32) -> Vec<TablePlan> {
     let emission = is_on(effects, Effect::Emission);
     let mut tables = vec![chains(effects)];
     if emission {
-        tables.push(proposals(scene, effects));
+        tables.push(proposals(scene, effects, max_depth));
         tables.push(rays(effects));
     }
     if scatters(effects) {
@@ -118,8 +120,8 @@ fn chains(effects: &[EffectPlan]) -> TablePlan {
     table
 }
 
-fn proposals(scene: &Scene, effects: &[EffectPlan]) -> TablePlan {
-    let mut table = TablePlan::new(TableId::PROPOSALS, Extent::vertices(scene.max_depth));
+fn proposals(scene: &Scene, effects: &[EffectPlan], max_depth: u32) -> TablePlan {
+    let mut table = TablePlan::new(TableId::PROPOSALS, Extent::vertices(max_depth));
     table
         .column::<VertexKind>("lens, surface, discrete")
         .column::<VertexPosition>("rays and segments start there")

@@ -15,10 +15,10 @@ use crate::systems::list::*;
 /// The systems and tables of states over path tracing.
 pub(super) fn over_path_tracing(scene: &Scene, effects: &[EffectPlan]) -> StateSystems {
     let of_samples = [ASSIGN_PIXELS, ACCEPT_ALWAYS, SPLAT_SAMPLES];
-    let mut systems = path_tracing::systems(scene, effects);
+    let mut systems = path_tracing::systems(scene, effects, scene.max_depth);
     systems.retain(|system| !of_samples.contains(&system.spec));
     systems.push(SystemPlan::new(EVALUATE_TARGETS, "chains sample in proportion to it"));
-    let mut tables = path_tracing::tables(scene, effects);
+    let mut tables = path_tracing::tables(scene, effects, scene.max_depth);
     tables[0]
         .column::<FilmPixel>("the pixel that the proposal reaches")
         .column::<Contribution>("the proposal's light")

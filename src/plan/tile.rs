@@ -46,6 +46,8 @@ pub struct TilePlan {
     pub heuristic: Heuristic,
     /// The fewest edges of a path that chains look for.
     pub shortest: u32,
+    /// The most edges of a path, where they are fewer than the scene's.
+    pub longest: u32,
 }
 
 impl TilePlan {
@@ -80,6 +82,7 @@ impl TilePlan {
             subpaths,
             heuristic: Heuristic::default(),
             shortest: 1,
+            longest: u32::MAX,
         };
         tile.resize(size, reason);
         tile

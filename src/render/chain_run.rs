@@ -8,10 +8,10 @@ use super::group::{BootstrapSamples, Seed, Start};
 use super::rendering::merge_costs;
 use super::tile_world::{TileWorld, lock};
 use crate::chain::{BootstrapWeight, KeyChain, Normalization, ProposedClass};
-use crate::path::{ChainKey, ChainTable, Decisions, PrimaryDepth, SplatCount};
-use crate::plan::{ChainCounts, ChainPlan, TableId, TilePlan};
+use crate::path::{ChainKey, ChainTable, Decisions};
+use crate::plan::{ChainCounts, ChainPlan, TilePlan};
 use crate::systems::chains::{ChainStatistics, GroupPlace, MutationLists, Mutations, WeightTally, weight_unit};
-use crate::systems::tile::{Counters, Depths};
+use crate::systems::tile::Counters;
 use crate::systems::{Run, SystemCost};
 use bevy_ecs::world::World;
 use std::ops::Range;
@@ -220,24 +220,6 @@ impl ChainRun {
     pub fn burst(&mut self, steps: u64, done: &(dyn Fn(u64) + Sync)) {
         let order: Vec<usize> = (0..self.tiles.len()).collect();
         self.burst_in_order(steps, &order, done);
-    }
-
-    /// Whether what states count by is within their tables: what a saved file says may be anything.
-    pub(super) fn states_are_sound(&self, max_depth: u32) -> bool {
-        // Of the list that a state may bring.
-        let splats = self.tile.tables.iter().find(|table| table.id == TableId::SPLATS);
-        let entries = splats.map_or(0, |table| table.extent.most_entries());
-        let mut sound = true;
-        self.for_each_tile(&mut |chains, world| {
-            let capacity = self.tile.capacity() as usize;
-            let mut depths = vec![0; capacity];
-            world.read::<PrimaryDepth, ChainTable>(&mut depths);
-            let held = world.world().resource::<Depths>().held().min(max_depth);
-            let mut splats = vec![0; chains.len()];
-            world.read::<SplatCount, ChainTable>(&mut splats);
-            sound &= depths.iter().all(|&depth| depth <= held) && splats.iter().all(|&count| count <= entries);
-        });
-        sound
     }
 
     /// How many chains there are.

@@ -3,7 +3,7 @@
 use super::chain_run::ChainRun;
 use super::rendering::{Rendering, error_blocks};
 use super::tile_world::{TileWorld, lock};
-use super::{Combination, Findings, RenderError};
+use super::{Combination, DirectLight, Findings, RenderError};
 use crate::chain::StateClass;
 use crate::color::Rgb;
 use crate::film::{BlockGrid, FilmError, GroupFilm, LayerChannels, Picture, Tally, block_means, develop_combined};
@@ -34,6 +34,8 @@ pub struct ChainRender {
     pub blocks: Arc<BlockGrid>,
     /// The chains.
     pub run: ChainRun,
+    /// Direct light, where the chains leave it out.
+    pub(super) direct: Option<DirectLight>,
 }
 
 impl ChainRender {
@@ -82,13 +84,36 @@ impl ChainRender {
             insert_light(world, &scene, &blocks, &plan);
             world.insert_resource(GroupFilmRef(Arc::clone(&films[group])));
         })?;
+        let direct = plan.direct.clone();
+        let direct = direct.map(|direct| DirectLight::new(&scene, direct, seed, threads));
         Ok(Self {
+            direct: direct.transpose()?,
             scene,
             plan,
             films,
             blocks,
             run,
         })
+    }
+
+    /// [`burst`](Rendering::burst) with the tiles of chains dealt in the given order, which must name every tile once; others are
+    /// passed over.
+    pub fn burst_in_order(&mut self, steps: u64, order: &[usize], done: &(dyn Fn(u64) + Sync)) {
+        self.run.burst_in_order(steps, order, done);
+        self.follow(done);
+    }
+
+    /// Takes the samples of direct light that belong to the steps of the chains; they are no mutations.
+    fn follow(&mut self, done: &(dyn Fn(u64) + Sync)) {
+        let mutations = self.mutations();
+        if let Some(direct) = &mut self.direct {
+            direct.follow(mutations, &|| done(0));
+        }
+    }
+
+    /// Mutations of all chains so far.
+    pub(super) fn mutations(&self) -> u64 {
+        self.run.steps().saturating_mul(u64::from(self.run.counts().total()))
     }
 
     /// The factor that turns a group's sums into means over its states, for each pixel.
@@ -113,8 +138,8 @@ impl ChainRender {
             .steps_for(mutations_per_pixel, self.scene.pixel_count())
     }
 
-    /// What every group stands for in the mean radiance of every block and channel (number block · 3 + channel), see
-    /// [`Combination`].
+    /// What every group's chains stand for in the mean radiance of every block and channel (number block · 3 + channel), see
+    /// [`Combination`]: of all light but that which is rendered apart.
     #[must_use]
     pub fn group_block_means(&self, grid: &BlockGrid) -> Option<GroupMeans> {
         let (per_state, combination) = (self.per_state(), self.combination());
@@ -134,6 +159,19 @@ impl ChainRender {
         GroupMeans::from_rows(&rows).ok()
     }
 
+    /// The standard error of the picture's mean in every block and channel. `None` while it is not known.
+    fn block_errors(&self, grid: &BlockGrid) -> Option<Vec<f64>> {
+        let estimates = self.group_block_means(grid)?.estimates();
+        let mut errors: Vec<f64> = estimates.iter().map(|estimate| estimate.error).collect();
+        if let Some(direct) = &self.direct {
+            let (_, variances) = direct.block_means(grid)?;
+            for (error, variance) in errors.iter_mut().zip(variances) {
+                *error = (*error * *error + variance).sqrt();
+            }
+        }
+        Some(errors)
+    }
+
     /// Mutations per pixel so far.
     #[must_use]
     pub fn mutations_per_pixel(&self) -> f64 {
@@ -150,15 +188,13 @@ impl ChainRender {
     pub fn with_layers(&self, picture: Picture, findings: &Findings) -> Picture {
         let pixels = 0..self.scene.pixel_count();
         let grid = error_blocks(&self.scene);
-        let errors: Vec<f32> = self.group_block_means(&grid).map_or_else(Vec::new, |means| {
-            means.estimates().iter().map(|estimate| estimate.error as f32).collect()
-        });
+        let errors = self.block_errors(&grid).unwrap_or_default();
         let error = |pixel: u32| {
             let first = 3 * grid.block_of(pixel)?;
             let [r, g, b] = errors.get(first..first + 3)? else {
                 return None;
             };
-            Some(Rgb::new(*r, *g, *b))
+            Some(Rgb::new(*r as f32, *g as f32, *b as f32))
         };
         let ratio = |pixel: u32| {
             findings
@@ -234,6 +270,7 @@ impl Rendering for ChainRender {
 
     fn burst(&mut self, steps: u64, done: &(dyn Fn(u64) + Sync)) {
         self.run.burst(steps, done);
+        self.follow(done);
     }
 
     fn counters(&self) -> Counters {
@@ -254,12 +291,23 @@ impl Rendering for ChainRender {
         let (scales, combination) = (vec![self.per_state(); films.len()], self.combination());
         let weight = self.mutations_per_pixel() as f32;
         // All films are of the scene's size, and there is a finite scale for each.
-        develop_combined(&films, &scales, weight, |values| combination.apply(values)).unwrap_or_default()
+        let mut picture =
+            develop_combined(&films, &scales, weight, |values| combination.apply(values)).unwrap_or_default();
+        if let Some(direct) = &self.direct {
+            direct.add_to(&mut picture);
+        }
+        picture
     }
 
     fn error(&self) -> Option<PictureError> {
-        let means = self.group_block_means(&error_blocks(&self.scene))?;
-        PictureError::of(&means)?.relative_to(means.grand_mean())
+        let grid = error_blocks(&self.scene);
+        let means = self.group_block_means(&grid)?;
+        let Some(direct) = &self.direct else {
+            return PictureError::of(&means)?.relative_to(means.grand_mean());
+        };
+        let (of_direct, variances) = direct.block_means(&grid)?;
+        let mean = of_direct.iter().sum::<f64>() / of_direct.len() as f64;
+        PictureError::of_parts(&means, &variances)?.relative_to(mean + means.grand_mean())
     }
 
     fn acceptance(&self) -> Option<f64> {
@@ -278,7 +326,14 @@ impl Rendering for ChainRender {
     fn tally(&self) -> Tally {
         let mut sum = Tally::default();
         self.films.iter().for_each(|film| sum.add(&lock(film).tally()));
+        if let Some(direct) = &self.direct {
+            sum.add(&direct.tally());
+        }
         sum
+    }
+
+    fn direct(&self) -> Option<&DirectLight> {
+        self.direct.as_ref()
     }
 
     fn as_chains(&self) -> Option<&ChainRender> {

@@ -1,6 +1,6 @@
 //! What a render with chains tells of itself, beyond its picture: whether to believe it.
 
-use super::{ChainRender, Rendering};
+use super::{ChainRender, DirectLight, Rendering};
 use crate::chain::{LongestRejections, StateClass};
 use crate::path::ChainTable;
 use crate::plan::{Effect, MutationPlan};
@@ -58,6 +58,9 @@ pub struct Findings {
     pub missed: Vec<ClassFinding>,
     /// Classes whose share of the light differs from what the bootstraps found.
     pub against_bootstrap: Vec<ClassFinding>,
+    /// Whether direct light is rendered apart, and was found.
+    #[serde(skip)]
+    pub has_direct: bool,
     /// Whether anything in the scene emits: if not, black is what there is to find, and the scene's reader says so.
     #[serde(skip)]
     pub is_lit: bool,
@@ -163,6 +166,7 @@ impl Findings {
             disagreements: disagreements(render, &shares, &agreements),
             missed: missed(render, &shares),
             against_bootstrap: against_bootstrap(render, &shares),
+            has_direct: render.direct().is_some_and(DirectLight::is_lit),
             is_lit: render.plan().has(Effect::Emission),
             block_ratios,
         }
@@ -176,10 +180,17 @@ impl Findings {
             return warnings;
         }
         if self.normalization == 0.0 {
-            warnings.push(format!(
-                "none of {} bootstrap samples found light: the picture is black, which it may not be; raise --bootstrap",
-                self.bootstrap_samples
-            ));
+            let samples = self.bootstrap_samples;
+            warnings.push(if self.has_direct {
+                format!(
+                    "none of {samples} bootstrap samples found light that is not direct: the picture has direct light alone, which may \
+                     not be all there is; raise --bootstrap"
+                )
+            } else {
+                format!(
+                    "none of {samples} bootstrap samples found light: the picture is black, which it may not be; raise --bootstrap"
+                )
+            });
             return warnings;
         }
         if self.distinct_seeds < self.chains as usize / 2 {

@@ -1,6 +1,6 @@
 //! What all renders have in common, whether their samples are independent or states of chains.
 
-use super::{ChainRender, TileWorld};
+use super::{ChainRender, DirectLight, TileWorld};
 use crate::film::{BlockGrid, Picture, Tally};
 use crate::plan::{Plan, SystemSpec, TilePlan};
 use crate::scene::Scene;
@@ -50,7 +50,12 @@ pub trait Rendering {
     fn as_chains(&self) -> Option<&ChainRender> {
         None
     }
-    /// Lets `look` see every world.
+    /// Direct light, where it is rendered apart from all other: what it counted and cost is not among the above, but for the
+    /// picture, its error and what films could not take.
+    fn direct(&self) -> Option<&DirectLight> {
+        None
+    }
+    /// Lets `look` see every world, but for those of direct light.
     fn for_each_world(&self, look: &mut dyn FnMut(usize, &mut TileWorld));
 }
 

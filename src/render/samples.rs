@@ -60,6 +60,31 @@ impl Samples {
         self.steps += steps;
     }
 
+    /// Takes the samples from number `from` up to `to`, the latter excluded, where number i is step i / chains of chain
+    /// i mod chains. `done` hears of every stretch of chains that has finished. [`steps`](Self::steps) does not count them.
+    pub(super) fn take(&self, from: u64, to: u64, done: &(dyn Fn() + Sync)) {
+        let chains = u64::from(self.chains);
+        let steps_before = |number: u64, chain: u32| number.saturating_sub(u64::from(chain)).div_ceil(chains);
+        // Between these, all chains take the same steps.
+        let mut cuts = [0, (from % chains) as u32, (to % chains) as u32, self.chains];
+        cuts.sort_unstable();
+        let mut stretches = Vec::new();
+        for (&begin, &end) in cuts.iter().zip(&cuts[1..]) {
+            for first in (begin..end).step_by(self.tile.size as usize) {
+                let steps = steps_before(from, first)..steps_before(to, first);
+                if !steps.is_empty() {
+                    stretches.push((first, self.tile.size.min(end - first), steps));
+                }
+            }
+        }
+        let order: Vec<usize> = (0..stretches.len()).collect();
+        deal(&self.pool, &order, &|number, thread| {
+            let (first, count, steps) = &stretches[number];
+            lock(&self.worlds[thread]).run(*first, *count, steps.clone());
+            done();
+        });
+    }
+
     /// Runs `steps` more steps of every chain.
     pub(super) fn burst_all(&mut self, steps: u64, done: &(dyn Fn(u64) + Sync)) {
         let order: Vec<usize> = (0..self.tile_count()).collect();

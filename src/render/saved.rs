@@ -5,11 +5,11 @@
 
 use super::bytes::{CutOff, Hash, Reader, Writer};
 use super::tile_world::lock;
-use super::{ChainRender, Render, Rendering, SplatRender, Start, saved_tile};
+use super::{ChainRender, Render, Rendering, SplatRender, Start, saved_states, saved_tile};
 use crate::chain::Normalization;
 use crate::film::{GroupFilm, SavedFilmError};
 use crate::path::bidirectional::Weights;
-use crate::plan::{Base, Plan};
+use crate::plan::{Base, Plan, StateSpace};
 use crate::scene::Scene;
 use std::fmt::Write;
 
@@ -65,13 +65,16 @@ fn identity(scene: &Scene, plan: &Plan, seed: u64) -> Vec<(String, String)> {
         ("max_depth".to_owned(), scene.max_depth.to_string()),
     ];
     // Those that are set by options carry the options' names and words.
-    if plan.chains.is_some() {
+    if plan.technique.space() == Some(StateSpace::PRIMARY) {
         let base = if plan.strategies.is_some() {
             Base::Bdpt
         } else {
             Base::Pt
         };
         identity.push(("--base".to_owned(), base.to_string()));
+    }
+    if plan.technique.space() == Some(StateSpace::PATH) {
+        identity.push(("--direct".to_owned(), plan.direct_by().to_string()));
     }
     let strategy = match plan.strategies.map(|strategies| strategies.weights) {
         Some(Weights::Only(s, t)) => format!("{s},{t}"),
@@ -247,6 +250,11 @@ impl ChainRender {
         }
         self.run
             .for_each_tile(&mut |_, world| out.list(&saved_tile::save(world, &self.plan.tile)));
+        if let Some(direct) = &self.direct {
+            let mut film = Vec::new();
+            direct.film.save(&mut film);
+            out.list(&film);
+        }
         finish(out)
     }
 
@@ -284,11 +292,19 @@ impl ChainRender {
             }
         });
         outcome?;
-        if !saved.bytes.is_empty() || steps > LAST_STEP || !self.run.states_are_sound(self.scene.max_depth) {
+        let of_direct = self.direct.as_ref().map(|_| saved.list()).transpose()?;
+        if !saved.bytes.is_empty() || steps > LAST_STEP || !saved_states::are_sound(&self.run, &self.scene) {
             return Err(SavedRenderError::Damaged);
+        }
+        if let (Some(direct), Some(film)) = (&mut self.direct, of_direct) {
+            direct.film.restore(film)?;
         }
         self.run.steps = steps;
         self.run.set_units();
+        let mutations = self.mutations();
+        if let Some(direct) = &mut self.direct {
+            direct.taken = direct.due(mutations);
+        }
         Ok(())
     }
 }

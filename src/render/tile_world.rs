@@ -40,6 +40,7 @@ impl TileWorld {
             first_coordinate: plan.first_coordinate(),
             heuristic: plan.heuristic,
             shortest: plan.shortest,
+            longest: plan.longest,
             step: 0,
         };
         world.insert_resource(place);

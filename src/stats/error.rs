@@ -58,6 +58,42 @@ impl PictureError {
         )
     }
 
+    /// The error of the sum of two parts that are independent of each other: the mean over the groups, and one whose statistics are
+    /// independent of each other and have these well-known variances, none negative and one for each statistic of the groups.
+    /// `None` for fewer than two groups.
+    ///
+    /// With the covariances Σ of the first part's mean and diagonal D of the second's, the sum is distributed over
+    /// (tr Σ + tr D)² / tr (Σ + D)² components, and the part of its variance that is estimated has the degrees of freedom of the
+    /// first (Satterthwaite 1946).
+    #[must_use]
+    pub fn of_parts(means: &GroupMeans, variances: &[f64]) -> Option<Self> {
+        let spread = Spread::of(means)?;
+        let (groups, statistics) = (means.groups() as f64, means.statistics() as f64);
+        let known: f64 = variances.iter().sum();
+        if known <= 0.0 {
+            return Self::of(means);
+        }
+        let estimated = spread.total_variance / groups;
+        let total = estimated + known;
+        // Relative to the sum first, so that nothing over- or underflows.
+        let estimated_share = estimated / total;
+        let (mut squares, mut of_estimate) = (0.0, 0.0);
+        if estimated > 0.0 {
+            squares = estimated_share * estimated_share / spread.components;
+            of_estimate = squares / spread.degrees_of_freedom;
+        }
+        for (statistic, variance) in variances.iter().take(means.statistics()).enumerate() {
+            let share = variance / total;
+            let error = means.estimate(statistic).error;
+            squares += share * (2.0 * (error * error / total) + share);
+        }
+        Some(Self::new(
+            total / statistics,
+            (1.0 / squares).clamp(1.0, statistics),
+            1.0 / of_estimate,
+        ))
+    }
+
     /// From the expected mean-square error, its components, and the degrees of freedom of that estimate.
     fn new(mean_square: f64, components: f64, degrees_of_freedom: f64) -> Self {
         let rms = mean_square.sqrt();

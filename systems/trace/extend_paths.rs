@@ -174,6 +174,7 @@ impl Run<'_> {
             draw,
             mut ends,
         } = self;
+        let longest = scene.max_depth.min(place.longest);
         for ray in 0..queues.rays {
             let path = paths.at(ray) as usize;
             let from_light = !plain && place.starts_at_light(path);
@@ -277,7 +278,7 @@ impl Run<'_> {
 
             if plain || stops.is_empty() {
                 // The lens adds an edge to every light subpath.
-                let last = scene.max_depth - u32::from(from_light);
+                let last = longest - u32::from(from_light);
                 if !draw.is_empty() && (depth < last || (from_light && depth == last)) {
                     draw.put(queues.draw, path as u32);
                     queues.draw += 1;

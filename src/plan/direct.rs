@@ -1,0 +1,202 @@
+//! Direct light: what path tracing renders better than any chain, and chains leave to it.
+//!
+//! Chains find bright light by walking there, which pays where light is hard to find. Direct light is not: a sample or two find
+//! it in every pixel, and chains would spend most of their states on it, where it is most of the picture. So it is rendered apart
+//! by path tracing of short paths, and the picture is the sum of both parts. Whether a path is direct light is told by one
+//! function, [`is_direct`]; where a technique with chains leaves it out, its shortest path is the first that is not.
+//!
+//! Samples are taken in proportion to mutations, so many per pixel for every hundred mutations per pixel, and two before
+//! everything else: with them errors are known. A fixed number at the beginning would leave an error that no time makes smaller,
+//! and [`--target-error`](crate::render::Goal::target_error) would never be reached; and how many there are must not depend on a
+//! budget that nobody knows yet, or a render that was saved would go on to another picture. So their number is a function of the
+//! steps taken, like everything else.
+
+use super::path_tracing;
+use super::{EffectPlan, TilePlan};
+use crate::path::mis::Heuristic;
+use crate::scene::Scene;
+use std::fmt;
+use std::str::FromStr;
+
+/// Whether a path of so many edges is direct light: `EL`, light that the camera sees, or `EDL` and `ESL`, light that comes to it
+/// by way of one surface. This is the one place that tells it.
+#[must_use]
+pub const fn is_direct(edges: u32) -> bool {
+    edges <= 2
+}
+
+/// The most edges of a path of direct light.
+const LONGEST: u32 = {
+    let mut edges = 1;
+    while is_direct(edges + 1) {
+        edges += 1;
+    }
+    edges
+};
+
+/// Mutations per pixel for which [`Direct::Apart`] says how many samples there are.
+pub const PER_MUTATIONS: u64 = 100;
+
+/// The fewest samples of a pixel: without a second one nothing is known of their error.
+const FEWEST: u64 = 2;
+
+/// Who renders direct light, for techniques with chains in path space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direct {
+    /// The chains, as all other light.
+    Chains,
+    /// Path tracing, with so many samples per pixel for every [`PER_MUTATIONS`] mutations per pixel; at least one.
+    Apart(u32),
+}
+
+impl Default for Direct {
+    fn default() -> Self {
+        Self::Apart(16)
+    }
+}
+
+impl Direct {
+    /// The most samples that can be asked for.
+    pub const MOST: u32 = 1_000_000;
+
+    /// Who renders direct light of paths of at most `max_depth` edges: the chains, where it is all there is, since a technique
+    /// with chains that does without any would not be one.
+    #[must_use]
+    pub const fn within(self, max_depth: u32) -> Self {
+        if is_direct(max_depth) { Self::Chains } else { self }
+    }
+
+    /// The fewest edges of paths that chains look for.
+    #[must_use]
+    pub const fn shortest_of_chains(self) -> u32 {
+        match self {
+            Self::Chains => 1,
+            Self::Apart(_) => LONGEST + 1,
+        }
+    }
+}
+
+impl fmt::Display for Direct {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Chains => f.write_str("chains"),
+            Self::Apart(samples) => write!(f, "{samples}"),
+        }
+    }
+}
+
+impl FromStr for Direct {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "chains" {
+            return Ok(Self::Chains);
+        }
+        match text.parse() {
+            Ok(samples @ 1..=Self::MOST) => Ok(Self::Apart(samples)),
+            Ok(0) => Err("expected at least 1 sample, or `chains` to leave direct light to the chains".to_owned()),
+            _ => Err(format!(
+                "expected samples per pixel from 1 to {}, such as 16, or `chains` to leave direct light to the chains",
+                Self::MOST
+            )),
+        }
+    }
+}
+
+/// How direct light is rendered beside chains.
+#[derive(Clone, Debug)]
+pub struct DirectPlan {
+    /// Samples per pixel for every [`PER_MUTATIONS`] mutations per pixel.
+    pub samples: u32,
+    /// What the worlds of its samples are built from.
+    pub tile: TilePlan,
+}
+
+impl DirectPlan {
+    /// Path tracing of the direct light of `scene`, which has these effects.
+    pub(super) fn new(
+        scene: &Scene,
+        effects: &[EffectPlan],
+        samples: u32,
+        heuristic: Heuristic,
+        tile_size: Option<u32>,
+    ) -> Self {
+        let longest = LONGEST.min(scene.max_depth);
+        let mut tile = TilePlan::new(
+            path_tracing::systems(scene, effects, longest),
+            path_tracing::tables(scene, effects, longest),
+            tile_size,
+        );
+        tile.longest = longest;
+        tile.heuristic = heuristic;
+        Self { samples, tile }
+    }
+
+    /// The most edges of its paths.
+    #[must_use]
+    pub const fn longest(&self) -> u32 {
+        self.tile.longest
+    }
+
+    /// Samples of all `pixels` pixels together, once `mutations` mutations are done: none before the first.
+    #[must_use]
+    pub fn samples_after(&self, mutations: u64, pixels: u32) -> u64 {
+        if mutations == 0 {
+            return 0;
+        }
+        let in_proportion = (u128::from(mutations) * u128::from(self.samples)).div_ceil(u128::from(PER_MUTATIONS));
+        u64::try_from(in_proportion)
+            .unwrap_or(u64::MAX)
+            .max(FEWEST * u64::from(pixels))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_chains_leave_out_is_what_is_rendered_apart() {
+        let apart = Direct::Apart(16);
+        assert_eq!(
+            (apart.shortest_of_chains(), Direct::Chains.shortest_of_chains()),
+            (3, 1)
+        );
+        for edges in 1..20 {
+            assert_eq!(is_direct(edges), edges < apart.shortest_of_chains(), "{edges}");
+            assert_eq!(is_direct(edges), edges <= LONGEST, "{edges}");
+        }
+        assert_eq!((apart.within(2), apart.within(3)), (Direct::Chains, apart));
+        assert_eq!(Direct::Chains.within(9), Direct::Chains);
+    }
+
+    #[test]
+    fn words_read_back_and_others_are_refused() {
+        for direct in [
+            Direct::Chains,
+            Direct::Apart(1),
+            Direct::default(),
+            Direct::Apart(Direct::MOST),
+        ] {
+            assert_eq!(direct.to_string().parse(), Ok(direct));
+        }
+        for text in ["0", "-1", "1.5", "1000001", "chain", ""] {
+            let error = text.parse::<Direct>().expect_err(text);
+            assert!(error.contains("`chains`"), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn samples_follow_mutations_and_never_go_back() {
+        let plan = DirectPlan {
+            samples: 16,
+            tile: TilePlan::new(Vec::new(), Vec::new(), Some(16)),
+        };
+        let pixels = 1000;
+        let per_pixel = |mutations: u64| plan.samples_after(mutations * u64::from(pixels), pixels) / u64::from(pixels);
+        assert_eq!([0, 1, 10, 25, 100, 1000].map(per_pixel), [0, 2, 2, 4, 16, 160]);
+        let counts: Vec<u64> = (0..50_000).map(|m| plan.samples_after(m, pixels)).collect();
+        assert!(counts.is_sorted() && counts[1] == 2000);
+        assert_eq!(plan.samples_after(u64::MAX, 1), u64::MAX / 100 * 16 + 3);
+    }
+}

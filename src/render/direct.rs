@@ -1,0 +1,137 @@
+//! Direct light under way, beside chains that leave it out: samples of path tracing, in proportion to mutations.
+//!
+//! Sample number i is the i / pixels-th of pixel i mod pixels: each pixel has as many as any other, or one more. So a step of
+//! chains brings a part of a sample for every pixel, and bursts, interrupts and time limits are as fine as those of chains alone.
+
+use super::RenderError;
+use super::samples::Samples;
+use super::tile_world::TileWorld;
+use crate::film::{BlockGrid, Film, Picture, Tally, block_means_of, block_variances};
+use crate::plan::{DirectPlan, TilePlan};
+use crate::sampling::StreamKey;
+use crate::scene::Scene;
+use crate::systems::SystemCost;
+use crate::systems::tile::{Counters, FilmRef, SceneRef};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// The step of chain 0 whose key is the seed of direct light's samples: it is no chain's, so they share no numbers.
+const SEED_STEP: u64 = 1 << 61;
+
+/// Samples of direct light under way, and their film.
+pub struct DirectLight {
+    /// How it is rendered.
+    pub plan: DirectPlan,
+    /// What its samples brought.
+    pub film: Arc<Film>,
+    samples: Samples,
+    pixels: u32,
+    /// Samples taken, of all pixels together.
+    pub(super) taken: u64,
+}
+
+impl DirectLight {
+    pub(super) fn new(scene: &Arc<Scene>, plan: DirectPlan, seed: u64, threads: usize) -> Result<Self, RenderError> {
+        let film = Arc::new(Film::new(scene.width, scene.height, scene.lights.max_radiance())?);
+        let seed = StreamKey::new(seed, 0, SEED_STEP).bits();
+        let samples = Samples::new(&plan.tile, scene.pixel_count(), seed, threads, |world| {
+            world.insert_resource(SceneRef(Arc::clone(scene)));
+            world.insert_resource(FilmRef(Arc::clone(&film)));
+        })?;
+        Ok(Self {
+            plan,
+            film,
+            samples,
+            pixels: scene.pixel_count(),
+            taken: 0,
+        })
+    }
+
+    /// Takes the samples that belong to so many mutations, but for those that were taken before. `done` hears whenever some are.
+    pub(super) fn follow(&mut self, mutations: u64, done: &(dyn Fn() + Sync)) {
+        let due = self.due(mutations).max(self.taken);
+        self.samples.take(self.taken, due, done);
+        self.taken = due;
+    }
+
+    /// Samples that belong to so many mutations, of all pixels together.
+    pub(super) fn due(&self, mutations: u64) -> u64 {
+        self.plan.samples_after(mutations, self.pixels)
+    }
+
+    /// Samples per pixel so far.
+    #[must_use]
+    pub fn samples_per_pixel(&self) -> f64 {
+        self.taken as f64 / f64::from(self.pixels)
+    }
+
+    /// The plan of its worlds.
+    #[must_use]
+    pub const fn tile(&self) -> &TilePlan {
+        &self.plan.tile
+    }
+
+    /// What its worlds have counted.
+    #[must_use]
+    pub fn counters(&self) -> Counters {
+        self.samples.counters()
+    }
+
+    /// What every system has cost, summed over threads, in the order in which systems run.
+    #[must_use]
+    pub fn costs(&self) -> Vec<SystemCost> {
+        self.samples.costs()
+    }
+
+    /// Wall time that threads have spent in samples, summed over them.
+    #[must_use]
+    pub fn busy_time(&self) -> Duration {
+        self.samples.busy_time()
+    }
+
+    /// What its film could not take as it was.
+    #[must_use]
+    pub fn tally(&self) -> Tally {
+        self.film.tally()
+    }
+
+    /// Lets `look` see every world.
+    pub fn for_each_world(&self, look: &mut dyn FnMut(usize, &mut TileWorld)) {
+        self.samples.for_each_world(look);
+    }
+
+    /// The picture of direct light alone, with the errors of pixels.
+    #[must_use]
+    pub fn picture(&self) -> Picture {
+        self.film.develop()
+    }
+
+    /// Whether any sample found light.
+    #[must_use]
+    pub fn is_lit(&self) -> bool {
+        self.picture().rgb.iter().any(|rgb| !rgb.is_black())
+    }
+
+    /// The mean of every block and channel (number block · 3 + channel), and the variance of that mean. `None` while it is not
+    /// known.
+    pub(super) fn block_means(&self, grid: &BlockGrid) -> Option<(Vec<f64>, Vec<f64>)> {
+        let picture = self.picture();
+        let means = block_means_of(picture.view(), grid).ok()?;
+        let variances = block_variances(&picture, grid).ok()?;
+        let known = variances.iter().all(|variance| variance.is_finite());
+        known.then_some((means, variances))
+    }
+
+    /// Adds its light and variance to the pixels of `picture`, which is of the same size.
+    pub(super) fn add_to(&self, picture: &mut Picture) {
+        let direct = self.picture();
+        for (sum, light) in picture.rgb.iter_mut().zip(direct.rgb) {
+            *sum += light;
+        }
+        for (sum, error) in picture.error.iter_mut().zip(direct.error) {
+            sum.r = libm::hypotf(sum.r, error.r);
+            sum.g = libm::hypotf(sum.g, error.g);
+            sum.b = libm::hypotf(sum.b, error.b);
+        }
+    }
+}
