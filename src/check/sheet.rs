@@ -58,6 +58,14 @@ impl Sheet {
         }
     }
 
+    /// Adds a coin's outcome, see [`Tally::add_coin`].
+    #[inline]
+    pub(super) fn add_coin(&mut self, cell: Cell, heads: bool, a: f64, chain: u32) {
+        if cell != NOWHERE {
+            self.rows[usize::from(cell)].add_coin(heads, a, chain);
+        }
+    }
+
     /// Adds to what the cell's mean is beside.
     #[inline]
     pub(super) fn add_beside(&mut self, cell: Cell, value: f64) {

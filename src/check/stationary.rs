@@ -133,8 +133,7 @@ impl Replica {
     /// Adds whether the proposal was taken, less the probability of that. Given both states it is a toss of a coin, so no
     /// weight is needed.
     fn add_decision(&self, sheet: &mut Sheet) {
-        let taken = if self.accepted { 1.0 } else { 0.0 };
-        sheet.add(self.proposed, taken - self.acceptance, self.chain);
+        sheet.add_coin(self.proposed, self.accepted, self.acceptance, self.chain);
         sheet.add_beside(self.proposed, self.acceptance);
     }
 }

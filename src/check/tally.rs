@@ -51,6 +51,28 @@ impl Tally {
         }
     }
 
+    /// Adds a coin's outcome, less the probability `a` of heads, by replica `chain`. What is known of such a coin stands for what one
+    /// outcome says of its spread: where it is as good as certain, all outcomes are alike, and none tells how seldom another comes.
+    #[inline]
+    pub(super) fn add_coin(&mut self, heads: bool, a: f64, chain: u32) {
+        let (value, variance) = (if heads { 1.0 - a } else { -a }, a * (1.0 - a));
+        if variance == 0.0 {
+            // What could not have been is evidence like any other.
+            self.add(value, chain);
+            return;
+        }
+        self.sum += value;
+        self.sizes += 2.0 * variance;
+        self.squares += variance;
+        self.cubes += variance * (1.0 - 2.0 * a);
+        if value > self.most.value {
+            self.most = Extreme { value, chain };
+        }
+        if value < self.least.value {
+            self.least = Extreme { value, chain };
+        }
+    }
+
     /// Adds the sums of other replicas.
     pub(super) fn merge(&mut self, other: &Self) {
         self.sum += other.sum;
@@ -117,6 +139,22 @@ mod tests {
     use super::*;
     use crate::sampling::{Purpose, StreamKey};
     use crate::stats::normal::upper_quantile;
+
+    #[test]
+    fn coins_that_are_as_good_as_certain_are_no_evidence() {
+        let mut coins = Tally::default();
+        for chain in 0..10_000 {
+            coins.add_coin(true, 1.0 - 1e-7, chain);
+        }
+        let mean = coins.mean(10_000);
+        assert!(mean.effective < 1.0 && mean.z().abs() < 0.1, "{mean:?}");
+        // A coin that always comes up heads, and is said to be fair.
+        let mut unfair = Tally::default();
+        for chain in 0..10_000 {
+            unfair.add_coin(true, 0.5, chain);
+        }
+        assert!(unfair.mean(10_000).z() > 50.0);
+    }
 
     #[test]
     fn sums_of_parts_are_the_sum() {
