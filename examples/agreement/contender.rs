@@ -2,7 +2,7 @@
 
 use super::family::BlockMeans;
 use chainlight::film::{BlockGrid, block_means_of};
-use chainlight::plan::{Base, ChainSettings, Plan, PlanOptions, Technique};
+use chainlight::plan::{Base, ChainSettings, Direct, Plan, PlanOptions, Technique};
 use chainlight::render::{Rendering, start};
 use chainlight::scene::Scene;
 use miette::{IntoDiagnostic, Result};
@@ -18,21 +18,37 @@ pub struct Contender {
     pub technique: Technique,
     /// What its chains run over.
     pub base: Base,
+    /// Who renders direct light beside chains of whole paths.
+    pub direct: Direct,
 }
 
 impl Contender {
     /// Every technique that is not the depth-first twin of another.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::of(Technique::Pt, Base::Pt),
         Self::of(Technique::Lt, Base::Pt),
         Self::of(Technique::Bdpt, Base::Pt),
         Self::of(Technique::Pssmlt, Base::Pt),
         Self::of(Technique::Pssmlt, Base::Bdpt),
+        Self::of(Technique::Mlt, Base::Pt),
     ];
 
     /// A technique over a base, which counts for chains alone.
     pub const fn of(technique: Technique, base: Base) -> Self {
-        Self { technique, base }
+        Self {
+            technique,
+            base,
+            direct: Direct::Apart(16),
+        }
+    }
+
+    /// The same with all light left to chains.
+    #[cfg_attr(not(test), expect(dead_code, reason = "tests alone compare it"))]
+    pub const fn by_chains_alone(self) -> Self {
+        Self {
+            direct: Direct::Chains,
+            ..self
+        }
     }
 
     /// How many of its samples take about the time of one of bidirectional path tracing with its noise: path tracing needs many
@@ -40,7 +56,7 @@ impl Contender {
     pub const fn samples(self) -> u64 {
         match (self.technique, self.base) {
             (Technique::Pt, _) => 8,
-            (Technique::Lt | Technique::Pssmlt, Base::Pt) => 4,
+            (Technique::Lt | Technique::Pssmlt | Technique::Mlt, Base::Pt) => 4,
             _ => 1,
         }
     }
@@ -49,6 +65,7 @@ impl Contender {
     pub fn options(self) -> PlanOptions {
         PlanOptions {
             base: self.base,
+            direct: self.direct,
             chains: ChainSettings {
                 groups: 1,
                 chains: Some(64),
@@ -64,6 +81,7 @@ impl fmt::Display for Contender {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.technique {
             Technique::Pssmlt => write!(f, "{} over {}", self.technique, self.base),
+            Technique::Mlt if self.direct == Direct::Chains => write!(f, "{} by chains alone", self.technique),
             technique => write!(f, "{technique}"),
         }
     }

@@ -178,6 +178,30 @@ mod tests {
     }
 
     #[test]
+    fn parts_add_up() {
+        let means = GroupMeans::from_rows(&[[1.0, 4.0], [2.0, 5.0], [4.0, 3.0], [1.5, 4.5]]).expect("a table");
+        let one = PictureError::of(&means).expect("groups");
+        // Nothing added is nothing changed, and nothing estimated leaves what is known.
+        assert_eq!(PictureError::of_parts(&means, &[0.0, 0.0]), Some(one));
+        let even = GroupMeans::from_rows(&[[1.0, 4.0]; 4]).expect("a table");
+        let known = PictureError::of_parts(&even, &[0.01, 0.03]).expect("groups");
+        let alone = PictureError::of_independent(&[0.01, 0.03]);
+        for (a, b) in [
+            (known.rms, alone.rms),
+            (known.components, alone.components),
+            (known.interval[0], alone.interval[0]),
+            (known.upper, alone.upper),
+        ] {
+            assert!((a / b - 1.0).abs() < 1e-12, "{known:?} {alone:?}");
+        }
+        let both = PictureError::of_parts(&means, &[0.01, 0.03]).expect("groups");
+        assert!((both.rms * both.rms - one.rms * one.rms - alone.rms * alone.rms).abs() < 1e-12);
+        assert!(both.components >= 1.0 && both.components <= 2.0);
+        let single = GroupMeans::from_rows(&[[1.0]]).expect("a table");
+        assert_eq!(PictureError::of_parts(&single, &[0.01]), None);
+    }
+
+    #[test]
     fn known_variances_count_their_components() {
         let even = PictureError::of_independent(&[0.04; 100]);
         assert!((even.rms - 0.2).abs() < 1e-15 && (even.components - 100.0).abs() < 1e-9);

@@ -5,6 +5,7 @@
 
 mod adjoint;
 mod agree;
+mod agree_paths;
 mod bytes;
 mod densities;
 mod errors;

@@ -2,6 +2,8 @@
 
 mod bytes;
 mod depth_first;
+mod direct;
 mod oracle;
+mod path_space;
 mod rules;
 mod start_up;

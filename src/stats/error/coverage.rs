@@ -106,6 +106,47 @@ fn sixteen_groups_cover_as_stated() {
     }
 }
 
+/// Groups beside a part whose variances are known: each statistic has a multiple of them added, from a tenth to ten times what the
+/// groups' own mean has in all.
+#[test]
+fn a_part_of_known_variances_covers_as_stated() {
+    const GROUPS: usize = 16;
+    for (seed, (case, variances)) in spectra().into_iter().enumerate() {
+        let total: f64 = variances.iter().sum::<f64>() / GROUPS as f64;
+        for part in [0.1, 1.0, 10.0] {
+            let known = vec![part * total / variances.len() as f64; variances.len()];
+            let stated = |source: &mut Source, halved: f64| {
+                let values = (0..GROUPS).flat_map(|_| source.normals(&variances)).collect();
+                let means = GroupMeans::new(GROUPS, variances.len(), values).expect("a table");
+                let added = source.normals(&known);
+                let sums = means
+                    .estimates()
+                    .into_iter()
+                    .zip(added)
+                    .map(|(e, added)| e.mean + added);
+                let truth = (sums.map(|e| e * e).sum::<f64>() / variances.len() as f64).sqrt();
+                let error = PictureError::of_parts(&means, &known).expect("groups");
+                let inside = halved * error.interval[0] <= truth && truth <= halved * error.interval[1];
+                (inside, truth <= error.upper)
+            };
+            let mut source = Source::new(700 + seed as u64);
+            let all: Vec<_> = (0..PICTURES).map(|_| stated(&mut source, 1.0)).collect();
+            let share = |held: usize| held as f64 / PICTURES as f64;
+            Coverage {
+                interval: share(all.iter().filter(|(inside, _)| *inside).count()),
+                upper: share(all.iter().filter(|(_, below)| *below).count()),
+            }
+            .is_in(&format!("{case}, {part}"), [0.92, 0.985], [0.92, 0.985]);
+            let halved = (0..PICTURES).filter(|_| stated(&mut source, 0.5).0).count();
+            assert!(
+                share(halved) < 0.85,
+                "{case}, {part}: halved bounds cover {}",
+                share(halved)
+            );
+        }
+    }
+}
+
 /// Of eight groups the number of components is known to a factor of two or so: too many are found where one of them is
 /// stronger than the others, and too few where they are equal.
 #[test]
