@@ -7,17 +7,22 @@ use crate::chain::{
     SupportDensity, Target,
 };
 use crate::film::{BlockGrid, GroupFilm};
-use crate::path::ChainTable;
-use crate::plan::{Base, ChainPlan, ChainSettings, Plan, PlanOptions, Registry, Technique};
+use crate::path::{ChainKey, ChainTable};
+use crate::plan::{Base, ChainPlan, ChainSettings, Plan, PlanOptions, Registry, StateSpace, Technique};
 use crate::render::TileWorld;
+use crate::sampling::{Purpose, Stream, StreamKey};
 use crate::scene::Scene;
 use crate::systems::Run;
-use crate::systems::chains::{ChainStatistics, GroupPlace, MutationLists, Mutations};
+use crate::systems::chains::{ChainStatistics, GroupPlace, MutationLists, Mutations, bootstrap_step};
 use crate::systems::tile::{FilmBlocks, GroupFilmRef, SceneRef, StrategiesRef};
 use std::sync::{Arc, Mutex};
 
 /// Replicas that run side by side.
 pub(super) const BATCH: u32 = 512;
+/// Candidates among which a replica's start is chosen, of states that are whole paths.
+const CANDIDATES: u64 = 16;
+/// Chooses among them.
+const CHOICE: Purpose = Purpose::named("start of a replica");
 /// Blocks along a side of the film.
 const BLOCKS_PER_SIDE: u32 = 4;
 
@@ -31,6 +36,8 @@ pub(super) struct Subject {
     pub(super) families: Vec<Family>,
     /// Number of the mutation that is checked.
     pub(super) number: usize,
+    /// Samples among which a replica's start is chosen.
+    candidates: u64,
 }
 
 impl Subject {
@@ -64,6 +71,11 @@ impl Subject {
         Ok(Self {
             families: families(&plan.tile, &blocks),
             number: number.unwrap_or(0),
+            candidates: if technique.space() == Some(StateSpace::PATH) {
+                CANDIDATES
+            } else {
+                1
+            },
             plan,
             chains,
             scene: Arc::clone(scene),
@@ -111,10 +123,37 @@ pub(super) struct Replicas<'a> {
 
 impl Replicas<'_> {
     /// Draws a sample for each of `chains` replicas from `first` on, and returns their weights f/p. They are proposals still.
+    ///
+    /// Of states whose weights differ much, each replica draws some candidates and starts at one of them, chosen in proportion to
+    /// their weights; it then weighs as much as they do on average. E[w h(x₀)] is the same, and replicas stay independent; but
+    /// without it, a few of them would be most of every sum (Talbot, Cline and Egbert 2005, on resampled importance sampling).
     pub(super) fn draw(&mut self, first: u32, chains: u32) -> Vec<f64> {
         (self.first, self.chains) = (first, chains.min(BATCH));
-        self.world.run_once(Run::Bootstrap, self.first, self.chains, 0);
-        self.column::<f64>(|world, values| world.read::<BootstrapWeight, ChainTable>(values))
+        let candidates = self.subject.candidates;
+        let mut chosen = vec![0; self.chains as usize];
+        let mut sums = vec![0.0; self.chains as usize];
+        let mut streams: Vec<Stream> = (0..self.chains)
+            .map(|chain| StreamKey::new(self.subject.seed, first + chain, 0).stream(CHOICE, 0))
+            .collect();
+        for round in 0..candidates {
+            self.world.run_once(Run::Bootstrap, self.first, self.chains, round);
+            let weights = self.column::<f64>(|world, values| world.read::<BootstrapWeight, ChainTable>(values));
+            for (((sum, chosen), stream), weight) in sums.iter_mut().zip(&mut chosen).zip(&mut streams).zip(weights) {
+                *sum += weight;
+                if stream.next_f64() * *sum < weight {
+                    *chosen = round;
+                }
+            }
+        }
+        if candidates > 1 {
+            let key = |(chain, &round): (u32, &u64)| {
+                StreamKey::new(self.subject.seed, first + chain, bootstrap_step(round)).bits()
+            };
+            let keys: Vec<u64> = (0..).zip(&chosen).map(key).collect();
+            self.world.write::<ChainKey, ChainTable>(&keys);
+        }
+        sums.iter_mut().for_each(|sum| *sum /= candidates as f64);
+        sums
     }
 
     /// Makes the samples the replicas' states, but for those without light, whose replicas weigh nothing.

@@ -26,6 +26,8 @@ pub struct Options {
     pub density_replicas: u64,
     /// Numbers of steps after which states are looked at, ascending.
     pub steps: Vec<u64>,
+    /// Whether the mutation is also tried among all those of its states, each with its own weight.
+    pub among_all: bool,
     /// What primary-sample-space chains run over.
     pub base: Base,
     /// Seed of all random numbers.
@@ -42,6 +44,7 @@ impl Default for Options {
             replicas: 1 << 17,
             density_replicas: 1 << 18,
             steps: vec![1, 2, 8],
+            among_all: false,
             base: Base::default(),
             seed: 0,
             threads: 1,
@@ -201,7 +204,7 @@ struct Check<'a> {
 
 impl Check<'_> {
     /// The tests of target and flow: with the mutation alone, and where its choice depends on the state, mixed with one
-    /// that is independent of it too.
+    /// that is independent of it too; and among all mutations, if that is asked for.
     fn stationary(&self) -> Result<Vec<Run>, CheckError> {
         let mut registries = vec![("alone".to_owned(), self.alone()?)];
         if self.mutation.is_selective()
@@ -212,6 +215,9 @@ impl Check<'_> {
                 .set(&format!("{}:weight=1", partner.name()))
                 .map_err(CheckError::Unknown)?;
             registries.push((format!("mixed with {}", partner.name()), mixed));
+        }
+        if self.options.among_all {
+            registries.push(("among all".to_owned(), self.registry.clone()));
         }
         let mut runs = Vec::new();
         for (name, registry) in registries {
@@ -341,7 +347,8 @@ impl Check<'_> {
         let batches = replicas.div_ceil(u64::from(BATCH)).clamp(1, most) as u32;
         let chunks = batches.min(CHUNKS);
         let per_chunk = batches.div_ceil(chunks);
-        let expected = CHUNKS * if self.mutation.is_selective() { 3 } else { 2 };
+        let runs = 2 + u32::from(self.mutation.is_selective()) + u32::from(self.options.among_all);
+        let expected = CHUNKS * runs;
         let done = || {
             let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
             (self.progress)(f64::from(done) / f64::from(expected.max(done)));

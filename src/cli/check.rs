@@ -32,6 +32,9 @@ pub struct CheckArgs {
     /// Twenty times the replicas: biases of a quarter the size show
     #[arg(long)]
     thorough: bool,
+    /// Also try each mutation among all those of its states, with the weights that they have
+    #[arg(long)]
+    among_all: bool,
     /// What chains in primary sample space run over: pt or bdpt
     #[arg(long, value_name = "NAME", default_value_t)]
     base: Base,
@@ -79,6 +82,7 @@ pub fn run(args: &CheckArgs, registry: &Registry) -> Result<ExitCode> {
     refuse_unused(args, &registry)?;
     let scene = scene(args)?;
     let options = Options {
+        among_all: args.among_all,
         base: args.base,
         seed: args.seed,
         threads: args.threads.count(),

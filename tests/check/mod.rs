@@ -2,6 +2,8 @@
 
 mod command;
 mod example;
+mod paths;
+mod spoiled;
 mod steps;
 mod twins;
 mod verdicts;
