@@ -10,8 +10,8 @@ use crate::support::verdict::{Family, POWER, say};
 use chainlight::chain::Target;
 use chainlight::film::{BlockGrid, block_means_of, block_variances};
 use chainlight::path::ChainTable;
-use chainlight::plan::{Direct, Technique};
-use chainlight::render::{ChainRender, Rendering};
+use chainlight::plan::{Plan, Technique};
+use chainlight::render::{ChainRender, Render, Rendering};
 use chainlight::scene::Scene;
 use chainlight::stats::error::PictureError;
 use chainlight::stats::group_means::GroupMeans;
@@ -48,24 +48,22 @@ static TRUTH: LazyLock<Vec<f64>> = LazyLock::new(|| {
         .collect()
 });
 
-/// Direct light's part of them, from many samples.
-static DIRECT: LazyLock<Vec<f64>> = LazyLock::new(|| {
-    let mut chains = chains(1);
-    chains.options.direct = Direct::Apart(100_000);
-    let mut render = chains.start(&SCENE);
-    render.burst(render.steps_for(MUTATIONS_PER_PIXEL), &|_| {});
-    let direct = render.direct().expect("rendered apart").picture();
-    block_means_of(direct.view(), &grid()).expect("the same size")
+/// What of them is not direct light, by path tracing: as in both its pictures samples draw the same numbers, what is noise of direct
+/// light in one is so in the other.
+static INDIRECT: LazyLock<Vec<f64>> = LazyLock::new(|| {
+    let [all, direct] = [u32::MAX, 2].map(|longest| {
+        let mut plan = Plan::new(&SCENE, Technique::Pt, None);
+        plan.tile.longest = longest;
+        let mut render = Render::new(Arc::clone(&SCENE), plan, 1 << 40, 1).expect("a small film");
+        render.burst(50_000, &|_| {});
+        block_means_of(render.picture().view(), &grid()).expect("the same size")
+    });
+    all.iter().zip(&direct).map(|(all, direct)| all - direct).collect()
 });
 
-/// b of the reference: the mean over pixels of the sum of the channels of what is not direct.
+/// The b of chains that leave direct light out: the mean over pixels of the sum of the channels of all other.
 fn true_b() -> f64 {
-    TRUTH
-        .iter()
-        .zip(&*DIRECT)
-        .map(|(all, direct)| all - direct)
-        .sum::<f64>()
-        / (STATISTICS / 3) as f64
+    INDIRECT.iter().sum::<f64>() / (STATISTICS / 3) as f64
 }
 
 fn chains(seed: u64) -> Chains {
@@ -127,10 +125,9 @@ fn runs(count: u64, first_seed: u64, spoil: fn(&ChainRender)) -> Vec<Run> {
 fn biased(runs: &[Run]) -> (usize, Vec<f64>) {
     let tests: Vec<_> = (0..STATISTICS)
         .map(|statistic| {
-            let indirect = TRUTH[statistic] - DIRECT[statistic];
             let values: Vec<f64> = runs
                 .iter()
-                .map(|run| run.estimates()[statistic].mean - indirect * (run.b.mean / true_b() - 1.0))
+                .map(|run| run.estimates()[statistic].mean - INDIRECT[statistic] * (run.b.mean / true_b() - 1.0))
                 .collect();
             Estimate::of(&values).against(TRUTH[statistic])
         })
