@@ -8,12 +8,12 @@ use crate::support::reference::{SIZE, reference_picture};
 use crate::support::scenes::box_filtered;
 use crate::support::verdict::{Family, POWER, say};
 use chainlight::chain::Target;
-use chainlight::film::{BlockGrid, block_means_of, block_variances};
+use chainlight::film::{BlockGrid, block_means_of};
 use chainlight::path::ChainTable;
 use chainlight::plan::{Plan, Technique};
 use chainlight::render::{ChainRender, Render, Rendering};
 use chainlight::scene::Scene;
-use chainlight::stats::error::PictureError;
+use chainlight::stats::error::{IndependentBlocks, PictureError};
 use chainlight::stats::group_means::GroupMeans;
 use chainlight::stats::student::t_interval;
 use chainlight::stats::z_test::Estimate;
@@ -78,7 +78,7 @@ struct Run {
     /// Block means of light that is not direct, group by group.
     means: GroupMeans,
     /// Block means of direct light, and their variances.
-    direct: [Vec<f64>; 2],
+    direct: (Vec<f64>, IndependentBlocks),
     /// b and its standard error, over the groups.
     b: Estimate,
 }
@@ -86,8 +86,8 @@ struct Run {
 impl Run {
     /// Of every block mean of the picture, its value and its standard error.
     fn estimates(&self) -> Vec<Estimate> {
-        let [means, variances] = &self.direct;
-        let direct = means.iter().zip(variances);
+        let (means, blocks) = &self.direct;
+        let direct = means.iter().zip(&blocks.variances);
         let both = self.means.estimates().into_iter().zip(direct);
         both.map(|(chains, (mean, variance))| Estimate {
             mean: chains.mean + mean,
@@ -97,7 +97,7 @@ impl Run {
     }
 
     fn stated(&self) -> PictureError {
-        PictureError::of_parts(&self.means, &self.direct[1]).expect("groups")
+        PictureError::of_parts(&self.means, &self.direct.1).expect("groups")
     }
 }
 
@@ -105,13 +105,10 @@ fn run(seed: u64, spoil: fn(&ChainRender)) -> Run {
     let mut render = chains(seed).start(&SCENE);
     spoil(&render);
     render.burst(render.steps_for(MUTATIONS_PER_PIXEL), &|_| {});
-    let direct = render.direct().expect("rendered apart").picture();
+    let direct = render.direct().expect("rendered apart");
     Run {
         means: render.group_block_means(&grid()).expect("finite means"),
-        direct: [
-            block_means_of(direct.view(), &grid()).expect("the same size"),
-            block_variances(&direct, &grid()).expect("the same size"),
-        ],
+        direct: direct.block_means(&grid()).expect("many samples"),
         b: Estimate::of(&render.run.normalizations()),
     }
 }

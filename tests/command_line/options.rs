@@ -133,7 +133,7 @@ fn options_without_effect_are_refused_with_what_to_do() {
         ),
         (
             &["render", scene, "--technique", "mlt", "--direct", "0"],
-            &["at least 1 sample", "`chains`"],
+            &["samples per pixel from 2 to", "`chains`"],
         ),
         (
             &[
