@@ -29,6 +29,7 @@ pub(super) struct Report {
     png_exposure: f32,
     threads: usize,
     load_seconds: f64,
+    /// Before the first step: bootstraps, and the first samples of direct light that is rendered apart.
     bootstrap_seconds: Option<f64>,
     render_seconds: f64,
     samples: u64,
@@ -102,9 +103,7 @@ impl Report {
             png_exposure: 0.0,
             threads: render.threads(),
             load_seconds: loaded.load_time.as_secs_f64(),
-            bootstrap_seconds: render
-                .as_chains()
-                .map(|chains| chains.run.bootstrap_time().as_secs_f64()),
+            bootstrap_seconds: render.as_chains().map(|chains| chains.start_time().as_secs_f64()),
             render_seconds: seconds,
             samples: counters.decisions,
             samples_per_second: counters.decisions as f64 / seconds.max(1e-9),

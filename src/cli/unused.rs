@@ -146,7 +146,7 @@ fn refuse_of_chains(args: &SceneArgs, technique: Technique, mutations: &Registry
     let given = args.mutations.mutation.first().map(|text| format!("--mutation {text}"));
     match of_chains.or(given) {
         Some(option) => Err(miette!(
-            help = "leave it out, or render with chains: --technique pssmlt",
+            help = "leave it out, or render with chains: --technique pssmlt or mlt",
             "{option} has no effect with {technique}: its samples are independent, it has no chains"
         )),
         None => Ok(()),

@@ -5,11 +5,11 @@
 //! by path tracing of short paths, and the picture is the sum of both parts. Whether a path is direct light is told by one
 //! function, [`is_direct`]; where a technique with chains leaves it out, its shortest path is the first that is not.
 //!
-//! Samples are taken in proportion to mutations, so many per pixel for every hundred mutations per pixel, and two before
-//! everything else: with them errors are known. A fixed number at the beginning would leave an error that no time makes smaller,
-//! and [`--target-error`](crate::render::Goal::target_error) would never be reached; and how many there are must not depend on a
-//! budget that nobody knows yet, or a render that was saved would go on to another picture. So their number is a function of the
-//! steps taken, like everything else.
+//! Samples are taken in proportion to mutations, so many per pixel for every hundred mutations per pixel, the first so many before
+//! the first step, as bootstraps are: of two or three samples of an edge of a lamp nobody could tell the error. But a fixed number
+//! would leave an error that no time makes smaller, and a [target](crate::render::Goal::target_error) would never be reached; and
+//! how many there are must not depend on a budget that nobody knows yet, or a render that was saved would go on to another picture.
+//! So their number is a function of the steps taken, like everything else.
 
 use super::path_tracing;
 use super::{EffectPlan, TilePlan};
@@ -37,15 +37,12 @@ const LONGEST: u32 = {
 /// Mutations per pixel for which [`Direct::Apart`] says how many samples there are.
 pub const PER_MUTATIONS: u64 = 100;
 
-/// The fewest samples of a pixel: without a second one nothing is known of their error.
-const FEWEST: u64 = 2;
-
 /// Who renders direct light, for techniques with chains in path space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direct {
     /// The chains, as all other light.
     Chains,
-    /// Path tracing, with so many samples per pixel for every [`PER_MUTATIONS`] mutations per pixel; at least one.
+    /// Path tracing, with so many samples per pixel for every [`PER_MUTATIONS`] mutations per pixel, and no fewer; 2 at least.
     Apart(u32),
 }
 
@@ -56,6 +53,8 @@ impl Default for Direct {
 }
 
 impl Direct {
+    /// The fewest samples that can be asked for: of a single one nothing is known of its error.
+    pub const FEWEST: u32 = 2;
     /// The most samples that can be asked for.
     pub const MOST: u32 = 1_000_000;
 
@@ -93,10 +92,10 @@ impl FromStr for Direct {
             return Ok(Self::Chains);
         }
         match text.parse() {
-            Ok(samples @ 1..=Self::MOST) => Ok(Self::Apart(samples)),
-            Ok(0) => Err("expected at least 1 sample, or `chains` to leave direct light to the chains".to_owned()),
+            Ok(samples @ Self::FEWEST..=Self::MOST) => Ok(Self::Apart(samples)),
             _ => Err(format!(
-                "expected samples per pixel from 1 to {}, such as 16, or `chains` to leave direct light to the chains",
+                "expected samples per pixel from {} to {}, such as 16, or `chains` to leave direct light to the chains",
+                Self::FEWEST,
                 Self::MOST
             )),
         }
@@ -106,7 +105,7 @@ impl FromStr for Direct {
 /// How direct light is rendered beside chains.
 #[derive(Clone, Debug)]
 pub struct DirectPlan {
-    /// Samples per pixel for every [`PER_MUTATIONS`] mutations per pixel.
+    /// Samples per pixel for every [`PER_MUTATIONS`] mutations per pixel, and no fewer.
     pub samples: u32,
     /// What the worlds of its samples are built from.
     pub tile: TilePlan,
@@ -138,16 +137,13 @@ impl DirectPlan {
         self.tile.longest
     }
 
-    /// Samples of all `pixels` pixels together, once `mutations` mutations are done: none before the first.
+    /// Samples of all `pixels` pixels together, once `mutations` mutations are done.
     #[must_use]
     pub fn samples_after(&self, mutations: u64, pixels: u32) -> u64 {
-        if mutations == 0 {
-            return 0;
-        }
         let in_proportion = (u128::from(mutations) * u128::from(self.samples)).div_ceil(u128::from(PER_MUTATIONS));
         u64::try_from(in_proportion)
             .unwrap_or(u64::MAX)
-            .max(FEWEST * u64::from(pixels))
+            .max(u64::from(self.samples) * u64::from(pixels))
     }
 }
 
@@ -174,13 +170,13 @@ mod tests {
     fn words_read_back_and_others_are_refused() {
         for direct in [
             Direct::Chains,
-            Direct::Apart(1),
+            Direct::Apart(2),
             Direct::default(),
             Direct::Apart(Direct::MOST),
         ] {
             assert_eq!(direct.to_string().parse(), Ok(direct));
         }
-        for text in ["0", "-1", "1.5", "1000001", "chain", ""] {
+        for text in ["0", "1", "-1", "1.5", "1000001", "chain", ""] {
             let error = text.parse::<Direct>().expect_err(text);
             assert!(error.contains("`chains`"), "{text}: {error}");
         }
@@ -194,9 +190,9 @@ mod tests {
         };
         let pixels = 1000;
         let per_pixel = |mutations: u64| plan.samples_after(mutations * u64::from(pixels), pixels) / u64::from(pixels);
-        assert_eq!([0, 1, 10, 25, 100, 1000].map(per_pixel), [0, 2, 2, 4, 16, 160]);
-        let counts: Vec<u64> = (0..50_000).map(|m| plan.samples_after(m, pixels)).collect();
-        assert!(counts.is_sorted() && counts[1] == 2000);
+        assert_eq!([0, 1, 100, 125, 1000].map(per_pixel), [16, 16, 16, 20, 160]);
+        let counts: Vec<u64> = (0..200_000).map(|m| plan.samples_after(m, pixels)).collect();
+        assert!(counts.is_sorted() && counts[100_001] == 16_001);
         assert_eq!(plan.samples_after(u64::MAX, 1), u64::MAX / 100 * 16 + 3);
     }
 }

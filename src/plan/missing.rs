@@ -73,9 +73,9 @@ const NOT_LIGHTS_ALONE: &str = "bdpt and pt find it";
 const NOT_LIGHTS_ALONE_BUT: &str =
     "bdpt and pt find it, but for light of points and single directions by way of smooth surfaces";
 /// Who finds what path tracing misses.
-const NOT_CAMERA_ALONE: &str = "bdpt, lt and pssmlt --base bdpt find it";
+const NOT_CAMERA_ALONE: &str = "bdpt, lt, mlt and pssmlt --base bdpt find it";
 /// The same where the camera sees smooth surfaces too.
-const NOT_CAMERA_ALONE_BUT: &str = "bdpt, lt and pssmlt --base bdpt find it, but for what the camera sees of it in or through \
+const NOT_CAMERA_ALONE_BUT: &str = "bdpt, lt, mlt and pssmlt --base bdpt find it, but for what the camera sees of it in or through \
                                     smooth surfaces: give the light a size for that (a small sphere that emits)";
 /// What to do where no technique finds it.
 const NOBODY: &str = "no technique finds it: give the light a size (a small sphere that emits)";

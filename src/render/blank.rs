@@ -35,7 +35,7 @@ pub fn blank(render: &dyn Rendering, picture: &Picture) -> Option<String> {
              --technique bdpt"
                 .to_owned()
         }
-        _ => "light that is only hard to find takes more samples (--spp), or chains: --technique pssmlt --base bdpt"
+        _ => "light that is only hard to find takes more samples (--spp), or chains: --technique pssmlt --base bdpt, or mlt"
             .to_owned(),
     };
     Some(format!(

@@ -47,8 +47,8 @@ impl ChainRender {
         Self::start(scene, plan, seed, threads, &AtomicBool::new(false), &|_| {})
     }
 
-    /// [`new`](Self::new), telling `progress` the share of the bootstrap that is done, and giving up when `interrupt` is
-    /// set.
+    /// [`new`](Self::new), telling `progress` the share that is done of what comes before the first step, the bootstrap and samples
+    /// of direct light that is rendered apart, and giving up when `interrupt` is set.
     ///
     /// # Errors
     /// As [`new`](Self::new), and if it was interrupted.
@@ -61,7 +61,12 @@ impl ChainRender {
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Self, RenderError> {
         let mut render = Self::unstarted(scene, plan, seed, threads)?;
-        render.run.bootstrap(interrupt, progress)?;
+        // Of what comes before the first step, if direct light does too.
+        let bootstrap = if render.direct.is_some() { 0.5 } else { 1.0 };
+        render.run.bootstrap(interrupt, &|share| progress(bootstrap * share))?;
+        if let Some(direct) = &mut render.direct {
+            direct.begin(interrupt, &|share| progress(bootstrap + (1.0 - bootstrap) * share))?;
+        }
         Ok(render)
     }
 
@@ -109,6 +114,13 @@ impl ChainRender {
         if let Some(direct) = &mut self.direct {
             direct.follow(mutations, &|| done(0));
         }
+    }
+
+    /// Wall time of what came before the first step.
+    #[must_use]
+    pub fn start_time(&self) -> Duration {
+        let direct = self.direct.as_ref().map_or(Duration::ZERO, DirectLight::start_time);
+        self.run.bootstrap_time() + direct
     }
 
     /// Mutations of all chains so far.
@@ -164,8 +176,8 @@ impl ChainRender {
         let estimates = self.group_block_means(grid)?.estimates();
         let mut errors: Vec<f64> = estimates.iter().map(|estimate| estimate.error).collect();
         if let Some(direct) = &self.direct {
-            let (_, variances) = direct.block_means(grid)?;
-            for (error, variance) in errors.iter_mut().zip(variances) {
+            let (_, blocks) = direct.block_means(grid)?;
+            for (error, variance) in errors.iter_mut().zip(blocks.variances) {
                 *error = (*error * *error + variance).sqrt();
             }
         }
@@ -305,9 +317,9 @@ impl Rendering for ChainRender {
         let Some(direct) = &self.direct else {
             return PictureError::of(&means)?.relative_to(means.grand_mean());
         };
-        let (of_direct, variances) = direct.block_means(&grid)?;
+        let (of_direct, blocks) = direct.block_means(&grid)?;
         let mean = of_direct.iter().sum::<f64>() / of_direct.len() as f64;
-        PictureError::of_parts(&means, &variances)?.relative_to(mean + means.grand_mean())
+        PictureError::of_parts(&means, &blocks)?.relative_to(mean + means.grand_mean())
     }
 
     fn acceptance(&self) -> Option<f64> {

@@ -10,10 +10,12 @@ use crate::film::{BlockGrid, Film, Picture, Tally, block_means_of, block_varianc
 use crate::plan::{DirectPlan, TilePlan};
 use crate::sampling::StreamKey;
 use crate::scene::Scene;
+use crate::stats::error::IndependentBlocks;
 use crate::systems::SystemCost;
 use crate::systems::tile::{Counters, FilmRef, SceneRef};
 use std::sync::Arc;
-use std::time::Duration;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// The step of chain 0 whose key is the seed of direct light's samples: it is no chain's, so they share no numbers.
 const SEED_STEP: u64 = 1 << 61;
@@ -28,6 +30,7 @@ pub struct DirectLight {
     pixels: u32,
     /// Samples taken, of all pixels together.
     pub(super) taken: u64,
+    start_time: Duration,
 }
 
 impl DirectLight {
@@ -44,7 +47,32 @@ impl DirectLight {
             samples,
             pixels: scene.pixel_count(),
             taken: 0,
+            start_time: Duration::ZERO,
         })
+    }
+
+    /// Takes the samples that come before the first step. `progress` hears the share that is done.
+    pub(super) fn begin(&mut self, interrupt: &AtomicBool, progress: &dyn Fn(f64)) -> Result<(), RenderError> {
+        let start = Instant::now();
+        let due = self.due(0);
+        while self.taken < due {
+            if interrupt.load(Ordering::Relaxed) {
+                return Err(RenderError::Interrupted);
+            }
+            progress(self.taken as f64 / due as f64);
+            let next = self.taken + u64::from(self.pixels);
+            self.samples.take(self.taken, next, &|| {});
+            self.taken = next;
+        }
+        progress(1.0);
+        self.start_time = start.elapsed();
+        Ok(())
+    }
+
+    /// Wall time of the samples before the first step.
+    #[must_use]
+    pub const fn start_time(&self) -> Duration {
+        self.start_time
     }
 
     /// Takes the samples that belong to so many mutations, but for those that were taken before. `done` hears whenever some are.
@@ -112,14 +140,23 @@ impl DirectLight {
         self.picture().rgb.iter().any(|rgb| !rgb.is_black())
     }
 
-    /// The mean of every block and channel (number block · 3 + channel), and the variance of that mean. `None` while it is not
-    /// known.
-    pub(super) fn block_means(&self, grid: &BlockGrid) -> Option<(Vec<f64>, Vec<f64>)> {
+    /// The mean of every block and channel (number block · 3 + channel), and its variances. `None` while those are not known.
+    #[must_use]
+    pub fn block_means(&self, grid: &BlockGrid) -> Option<(Vec<f64>, IndependentBlocks)> {
         let picture = self.picture();
         let means = block_means_of(picture.view(), grid).ok()?;
         let variances = block_variances(&picture, grid).ok()?;
-        let known = variances.iter().all(|variance| variance.is_finite());
-        known.then_some((means, variances))
+        let samples = self.taken / u64::from(self.pixels);
+        let known = samples > 1 && variances.iter().all(|variance| variance.is_finite());
+        known.then(|| {
+            let blocks = IndependentBlocks {
+                variances,
+                channels: 3,
+                // At worst a single pixel has all of a block's.
+                degrees_of_freedom: (samples - 1) as f64,
+            };
+            (means, blocks)
+        })
     }
 
     /// Adds its light and variance to the pixels of `picture`, which is of the same size.

@@ -14,6 +14,17 @@ use super::fisher::f_quantile;
 use super::group_means::GroupMeans;
 use serde::Serialize;
 
+/// The variances of a part of a picture whose blocks are independent of each other, as those of a path-traced picture are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IndependentBlocks {
+    /// The variances of means, block by block; none is negative.
+    pub variances: Vec<f64>,
+    /// Channels of a block, which may be correlated.
+    pub channels: usize,
+    /// Degrees of freedom of each block's variances as an estimate.
+    pub degrees_of_freedom: f64,
+}
+
 /// The root-mean-square error of a picture's statistics, in their units (or as a fraction, see
 /// [`relative_to`](Self::relative_to)).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -58,38 +69,46 @@ impl PictureError {
         )
     }
 
-    /// The error of the sum of two parts that are independent of each other: the mean over the groups, and one whose statistics are
-    /// independent of each other and have these well-known variances, none negative and one for each statistic of the groups.
-    /// `None` for fewer than two groups.
+    /// The error of the sum of two parts that are independent of each other: the mean over the groups, and one of as many
+    /// statistics with these variances. `None` for fewer than two groups.
     ///
-    /// With the covariances Σ of the first part's mean and diagonal D of the second's, the sum is distributed over
-    /// (tr Σ + tr D)² / tr (Σ + D)² components, and the part of its variance that is estimated has the degrees of freedom of the
-    /// first (Satterthwaite 1946).
+    /// With the covariances Σ of the first part's mean and D of the second, the sum is distributed over
+    /// (tr Σ + tr D)² / tr (Σ + D)² components, and the degrees of freedom of its estimated variance follow from those of both
+    /// (Satterthwaite 1946). Correlations of channels are not known: they are taken to be as large as they can be.
     #[must_use]
-    pub fn of_parts(means: &GroupMeans, variances: &[f64]) -> Option<Self> {
+    pub fn of_parts(means: &GroupMeans, blocks: &IndependentBlocks) -> Option<Self> {
         let spread = Spread::of(means)?;
-        let (groups, statistics) = (means.groups() as f64, means.statistics() as f64);
-        let known: f64 = variances.iter().sum();
+        let statistics = means.statistics();
+        let known: f64 = blocks.variances.iter().take(statistics).sum();
         if known <= 0.0 {
             return Self::of(means);
         }
-        let estimated = spread.total_variance / groups;
+        let estimated = spread.total_variance / means.groups() as f64;
         let total = estimated + known;
         // Relative to the sum first, so that nothing over- or underflows.
-        let estimated_share = estimated / total;
         let (mut squares, mut of_estimate) = (0.0, 0.0);
         if estimated > 0.0 {
-            squares = estimated_share * estimated_share / spread.components;
+            squares = (estimated / total) * (estimated / total) / spread.components;
             of_estimate = squares / spread.degrees_of_freedom;
         }
-        for (statistic, variance) in variances.iter().take(means.statistics()).enumerate() {
-            let share = variance / total;
-            let error = means.estimate(statistic).error;
-            squares += share * (2.0 * (error * error / total) + share);
+        let channels = blocks.channels.max(1);
+        for (block, variances) in blocks.variances[..statistics.min(blocks.variances.len())]
+            .chunks(channels)
+            .enumerate()
+        {
+            let (mut own, mut both) = (0.0, 0.0);
+            for (channel, variance) in variances.iter().enumerate() {
+                let share = variance / total;
+                own += share;
+                let error = means.estimate(block * channels + channel).error;
+                both += (error * error / total * share).sqrt();
+            }
+            squares += own * own + 2.0 * both * both;
+            of_estimate += own * own / blocks.degrees_of_freedom;
         }
         Some(Self::new(
-            total / statistics,
-            (1.0 / squares).clamp(1.0, statistics),
+            total / statistics as f64,
+            (1.0 / squares).clamp(1.0, statistics as f64),
             1.0 / of_estimate,
         ))
     }
@@ -179,26 +198,34 @@ mod tests {
 
     #[test]
     fn parts_add_up() {
+        let known = |variances: [f64; 2], channels| IndependentBlocks {
+            variances: variances.to_vec(),
+            channels,
+            degrees_of_freedom: f64::INFINITY,
+        };
         let means = GroupMeans::from_rows(&[[1.0, 4.0], [2.0, 5.0], [4.0, 3.0], [1.5, 4.5]]).expect("a table");
         let one = PictureError::of(&means).expect("groups");
         // Nothing added is nothing changed, and nothing estimated leaves what is known.
-        assert_eq!(PictureError::of_parts(&means, &[0.0, 0.0]), Some(one));
+        assert_eq!(PictureError::of_parts(&means, &known([0.0, 0.0], 1)), Some(one));
         let even = GroupMeans::from_rows(&[[1.0, 4.0]; 4]).expect("a table");
-        let known = PictureError::of_parts(&even, &[0.01, 0.03]).expect("groups");
+        let apart = PictureError::of_parts(&even, &known([0.01, 0.03], 1)).expect("groups");
         let alone = PictureError::of_independent(&[0.01, 0.03]);
         for (a, b) in [
-            (known.rms, alone.rms),
-            (known.components, alone.components),
-            (known.interval[0], alone.interval[0]),
-            (known.upper, alone.upper),
+            (apart.rms, alone.rms),
+            (apart.components, alone.components),
+            (apart.interval[0], alone.interval[0]),
+            (apart.upper, alone.upper),
         ] {
-            assert!((a / b - 1.0).abs() < 1e-12, "{known:?} {alone:?}");
+            assert!((a / b - 1.0).abs() < 1e-12, "{apart:?} {alone:?}");
         }
-        let both = PictureError::of_parts(&means, &[0.01, 0.03]).expect("groups");
+        let both = PictureError::of_parts(&means, &known([0.01, 0.03], 1)).expect("groups");
         assert!((both.rms * both.rms - one.rms * one.rms - alone.rms * alone.rms).abs() < 1e-12);
         assert!(both.components >= 1.0 && both.components <= 2.0);
+        let wholly_correlated = PictureError::of_parts(&even, &known([0.01, 0.03], 2)).expect("groups");
+        assert!((wholly_correlated.components - 1.0).abs() < 1e-12);
+        assert!((wholly_correlated.rms - alone.rms).abs() < 1e-12);
         let single = GroupMeans::from_rows(&[[1.0]]).expect("a table");
-        assert_eq!(PictureError::of_parts(&single, &[0.01]), None);
+        assert_eq!(PictureError::of_parts(&single, &known([0.01, 0.0], 1)), None);
     }
 
     #[test]

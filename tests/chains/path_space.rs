@@ -8,12 +8,12 @@ use crate::support::reference::{SIZE, reference_picture};
 use crate::support::scenes::box_filtered;
 use crate::support::verdict::{Family, POWER, say};
 use chainlight::chain::Target;
-use chainlight::film::{BlockGrid, block_means_of, block_variances};
+use chainlight::film::{BlockGrid, block_means_of};
 use chainlight::path::ChainTable;
-use chainlight::plan::{Direct, Technique};
-use chainlight::render::{ChainRender, Rendering};
+use chainlight::plan::{Plan, Technique};
+use chainlight::render::{ChainRender, Render, Rendering};
 use chainlight::scene::Scene;
-use chainlight::stats::error::PictureError;
+use chainlight::stats::error::{IndependentBlocks, PictureError};
 use chainlight::stats::group_means::GroupMeans;
 use chainlight::stats::student::t_interval;
 use chainlight::stats::z_test::Estimate;
@@ -48,24 +48,22 @@ static TRUTH: LazyLock<Vec<f64>> = LazyLock::new(|| {
         .collect()
 });
 
-/// Direct light's part of them, from many samples.
-static DIRECT: LazyLock<Vec<f64>> = LazyLock::new(|| {
-    let mut chains = chains(1);
-    chains.options.direct = Direct::Apart(100_000);
-    let mut render = chains.start(&SCENE);
-    render.burst(render.steps_for(MUTATIONS_PER_PIXEL), &|_| {});
-    let direct = render.direct().expect("rendered apart").picture();
-    block_means_of(direct.view(), &grid()).expect("the same size")
+/// What of them is not direct light, by path tracing: as in both its pictures samples draw the same numbers, what is noise of direct
+/// light in one is so in the other.
+static INDIRECT: LazyLock<Vec<f64>> = LazyLock::new(|| {
+    let [all, direct] = [u32::MAX, 2].map(|longest| {
+        let mut plan = Plan::new(&SCENE, Technique::Pt, None);
+        plan.tile.longest = longest;
+        let mut render = Render::new(Arc::clone(&SCENE), plan, 1 << 40, 1).expect("a small film");
+        render.burst(50_000, &|_| {});
+        block_means_of(render.picture().view(), &grid()).expect("the same size")
+    });
+    all.iter().zip(&direct).map(|(all, direct)| all - direct).collect()
 });
 
-/// b of the reference: the mean over pixels of the sum of the channels of what is not direct.
+/// The b of chains that leave direct light out: the mean over pixels of the sum of the channels of all other.
 fn true_b() -> f64 {
-    TRUTH
-        .iter()
-        .zip(&*DIRECT)
-        .map(|(all, direct)| all - direct)
-        .sum::<f64>()
-        / (STATISTICS / 3) as f64
+    INDIRECT.iter().sum::<f64>() / (STATISTICS / 3) as f64
 }
 
 fn chains(seed: u64) -> Chains {
@@ -80,7 +78,7 @@ struct Run {
     /// Block means of light that is not direct, group by group.
     means: GroupMeans,
     /// Block means of direct light, and their variances.
-    direct: [Vec<f64>; 2],
+    direct: (Vec<f64>, IndependentBlocks),
     /// b and its standard error, over the groups.
     b: Estimate,
 }
@@ -88,8 +86,8 @@ struct Run {
 impl Run {
     /// Of every block mean of the picture, its value and its standard error.
     fn estimates(&self) -> Vec<Estimate> {
-        let [means, variances] = &self.direct;
-        let direct = means.iter().zip(variances);
+        let (means, blocks) = &self.direct;
+        let direct = means.iter().zip(&blocks.variances);
         let both = self.means.estimates().into_iter().zip(direct);
         both.map(|(chains, (mean, variance))| Estimate {
             mean: chains.mean + mean,
@@ -99,7 +97,7 @@ impl Run {
     }
 
     fn stated(&self) -> PictureError {
-        PictureError::of_parts(&self.means, &self.direct[1]).expect("groups")
+        PictureError::of_parts(&self.means, &self.direct.1).expect("groups")
     }
 }
 
@@ -107,13 +105,10 @@ fn run(seed: u64, spoil: fn(&ChainRender)) -> Run {
     let mut render = chains(seed).start(&SCENE);
     spoil(&render);
     render.burst(render.steps_for(MUTATIONS_PER_PIXEL), &|_| {});
-    let direct = render.direct().expect("rendered apart").picture();
+    let direct = render.direct().expect("rendered apart");
     Run {
         means: render.group_block_means(&grid()).expect("finite means"),
-        direct: [
-            block_means_of(direct.view(), &grid()).expect("the same size"),
-            block_variances(&direct, &grid()).expect("the same size"),
-        ],
+        direct: direct.block_means(&grid()).expect("many samples"),
         b: Estimate::of(&render.run.normalizations()),
     }
 }
@@ -127,10 +122,9 @@ fn runs(count: u64, first_seed: u64, spoil: fn(&ChainRender)) -> Vec<Run> {
 fn biased(runs: &[Run]) -> (usize, Vec<f64>) {
     let tests: Vec<_> = (0..STATISTICS)
         .map(|statistic| {
-            let indirect = TRUTH[statistic] - DIRECT[statistic];
             let values: Vec<f64> = runs
                 .iter()
-                .map(|run| run.estimates()[statistic].mean - indirect * (run.b.mean / true_b() - 1.0))
+                .map(|run| run.estimates()[statistic].mean - INDIRECT[statistic] * (run.b.mean / true_b() - 1.0))
                 .collect();
             Estimate::of(&values).against(TRUTH[statistic])
         })

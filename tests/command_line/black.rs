@@ -100,6 +100,7 @@ fn light_of_points_through_glass_is_told_of_what_cannot_find_it() {
     std::fs::write(folder.path().join("aside.ron"), aside).expect("written");
     let chains = ["pssmlt", "--groups", "2", "--chains", "8", "--bootstrap", "64"];
     let over_bdpt = [&chains[..], &["--base", "bdpt"]].concat();
+    let paths = [&["mlt"], &chains[1..]].concat();
     let light = "cannot find light of points and single directions (lights[0] (Spot)) that comes to matt surfaces by way of \
                  smooth ones (glass)";
     for (technique, both) in [
@@ -108,6 +109,7 @@ fn light_of_points_through_glass_is_told_of_what_cannot_find_it() {
         (&chains, false),
         (&["bdpt"], true),
         (&over_bdpt, true),
+        (&paths, true),
     ] {
         let of = |scene: &'static str| {
             let arguments = [&["render", scene, "--spp", "1", "--technique"], technique].concat();
@@ -121,7 +123,7 @@ fn light_of_points_through_glass_is_told_of_what_cannot_find_it() {
         assert_eq!(aside.contains(light), !both, "{technique:?}: {aside}");
         if !both {
             assert!(
-                aside.contains("bdpt, lt and pssmlt --base bdpt find it"),
+                aside.contains("bdpt, lt, mlt and pssmlt --base bdpt find it"),
                 "{technique:?}: {aside}"
             );
         }

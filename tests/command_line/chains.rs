@@ -121,7 +121,7 @@ fn a_time_budget_is_reproduced_by_the_mutations_per_pixel_it_recorded() {
 #[test]
 fn a_render_that_was_ended_goes_on_to_the_same_bytes() {
     let folder = TempDir::new().expect("a folder");
-    for (technique, name) in [("pssmlt", "chains"), ("pt", "samples")] {
+    for (technique, name) in [("pssmlt", "chains"), ("mlt", "chains of paths"), ("pt", "samples")] {
         let technique = ["--technique", technique];
         let run = |more: &[&str]| {
             let glass = scene("cornell-glass.ron").display().to_string();
@@ -242,6 +242,112 @@ fn a_scene_without_light_has_no_chains_to_start() {
             && !words.contains("--bootstrap"),
         "{words}"
     );
+}
+
+/// A render of 32 x 24 pixels by `mlt` and what it reports.
+fn render_paths(more: &[&str], folder: &Path) -> Value {
+    let glass = scene("cornell-glass.ron").display().to_string();
+    let arguments = ["render", &glass, "--technique", "mlt", "--size", "32x24", "--json"];
+    serde_json::from_str(&succeed(&[&arguments[..], more].concat(), folder)).expect("a report")
+}
+
+#[test]
+fn direct_light_beside_chains_is_told_everywhere() {
+    let folder = TempDir::new().expect("a folder");
+    let apart = render_paths(&["--spp", "150", "-o", "a.exr"], folder.path());
+    let samples = apart["direct_samples_per_pixel"].as_f64().expect("a number");
+    assert!((23.9..24.1).contains(&samples), "{samples}");
+    let settings = apart["settings"].as_str().expect("text");
+    assert!(
+        settings.ends_with(" direct=16") && !settings.contains("base="),
+        "{settings}"
+    );
+    let metadata = chainlight::film::read_exr(&folder.path().join("a.exr"))
+        .expect("a picture")
+        .metadata;
+    assert_eq!(metadata["settings"], settings);
+    assert_eq!(metadata["direct_samples_per_pixel"], samples.to_string());
+    let all = render_paths(&["--spp", "50", "--direct", "chains", "-o", "b.exr"], folder.path());
+    assert!(all["direct_samples_per_pixel"].is_null());
+    assert!(
+        all["settings"]
+            .as_str()
+            .is_some_and(|settings| settings.ends_with(" direct=chains"))
+    );
+    let of_b = |report: &Value| report["chains"]["normalization"].as_f64().expect("a number");
+    assert!(of_b(&apart) < of_b(&all));
+
+    let glass = scene("cornell-glass.ron").display().to_string();
+    let shown = |command: &str, more: &[&str]| {
+        let arguments = [command, &glass, "--technique", "mlt", "--size", "16x12"];
+        succeed(&[&arguments[..], more].concat(), folder.path())
+    };
+    let plan = shown("plan", &[]);
+    assert!(plan.contains("direct light, which chains leave out: pt, paths of at most 2 edges, 16 samples per pixel"));
+    assert!(plan.contains("connect_lights") && plan.contains("evaluate_paths"));
+    let json: Value = serde_json::from_str(&shown("plan", &["--json", "--direct", "5"])).expect("JSON");
+    assert_eq!(json["direct"]["samples_per_100_mutations"].as_u64(), Some(5));
+    assert!(
+        json["direct"]["systems"]
+            .as_array()
+            .is_some_and(|systems| !systems.is_empty())
+    );
+    assert!(!shown("plan", &["--direct", "chains"]).contains("direct light, which"));
+    let profile = shown("profile", &["--spp", "8"]);
+    assert!(profile.contains("direct light by pt:") && profile.contains("connect_lights"));
+    let json: Value = serde_json::from_str(&shown("profile", &["--spp", "8", "--json"])).expect("JSON");
+    let share = |part: &Value| {
+        let stages = part["stages"].as_array().expect("a list").iter();
+        let schedule = part["schedule"]["share"].as_f64().expect("a share");
+        stages
+            .map(|stage| stage["share"].as_f64().expect("a share"))
+            .sum::<f64>()
+            + schedule
+    };
+    let (chains, direct) = (share(&json), share(&json["direct"]));
+    assert!(
+        direct > 0.0 && (chains + direct - 1.0).abs() < 1e-3,
+        "{chains} {direct}"
+    );
+}
+
+/// The error falls with steps, direct light's too.
+#[test]
+fn chains_beside_direct_light_reach_an_error_target() {
+    let folder = TempDir::new().expect("a folder");
+    let report = render_paths(&["--target-error", "0.3", "-o", "a.exr"], folder.path());
+    assert_eq!(report["target_reached"], Value::Bool(true));
+    assert!(report["error"]["upper"].as_f64().expect("a bound") <= 0.3);
+}
+
+#[test]
+fn a_saved_render_of_paths_goes_on_with_its_own_direct_light_alone() {
+    let folder = TempDir::new().expect("a folder");
+    render_paths(&["--spp", "2", "--save", "saved", "-o", "a.exr"], folder.path());
+    let saved = folder.path().join("saved").display().to_string();
+    let glass = scene("cornell-glass.ron").display().to_string();
+    let arguments = [
+        "render",
+        &glass,
+        "--technique",
+        "mlt",
+        "--size",
+        "32x24",
+        "--resume",
+        &saved,
+    ];
+    for (direct, told) in [
+        ("chains", "--direct is 16 there, and chains here"),
+        ("17", "--direct is 16 there, and 17 here"),
+    ] {
+        let error = fail(&[&arguments[..], &["--direct", direct]].concat());
+        assert!(error.contains(told), "{error}");
+    }
+    let timed = render_paths(&["--time", "0.3", "-o", "timed.exr"], folder.path());
+    let spp = timed["samples_per_pixel"].as_f64().expect("a number").to_string();
+    let again = ["--spp", &spp, "--threads", "1", "--tile", "16", "-o", "again.exr"];
+    assert_eq!(timed["steps"], render_paths(&again, folder.path())["steps"]);
+    assert!(same_bytes(folder.path(), "timed.exr", "again.exr"));
 }
 
 #[cfg(unix)]

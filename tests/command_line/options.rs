@@ -12,7 +12,7 @@ use tempfile::TempDir;
 fn options_without_effect_are_refused_with_what_to_do() {
     let scene = cornell();
     let scene = scene.as_str();
-    let cases: [(&[&str], &[&str]); 18] = [
+    let cases: [(&[&str], &[&str]); 26] = [
         (
             &["render", scene, "--strategy", "1,2"],
             &["--strategy 1,2 has no effect with pt", "--technique bdpt"],
@@ -106,6 +106,66 @@ fn options_without_effect_are_refused_with_what_to_do() {
         (
             &["render", scene, "--technique", "pssmlt-reference", "--base", "bdpt"],
             &["pssmlt-reference runs over pt alone"],
+        ),
+        (
+            &["render", scene, "--direct", "16"],
+            &["--direct 16 has no effect with pt", "no chains", "--technique mlt"],
+        ),
+        (
+            &["plan", scene, "--technique", "pssmlt", "--direct", "chains"],
+            &["--direct chains has no effect with pssmlt", "paths of any length"],
+        ),
+        (
+            &[
+                "render",
+                scene,
+                "--technique",
+                "mlt",
+                "--max-depth",
+                "2",
+                "--direct",
+                "8",
+            ],
+            &[
+                "--direct 8 has no effect with paths of at most 2 edges",
+                "nothing to chains",
+            ],
+        ),
+        (
+            &["render", scene, "--technique", "mlt", "--direct", "0"],
+            &["samples per pixel from 2 to", "`chains`"],
+        ),
+        (
+            &[
+                "render",
+                scene,
+                "--technique",
+                "mlt",
+                "--direct",
+                "chains",
+                "--heuristic",
+                "balance",
+            ],
+            &["--heuristic balance has no effect with mlt whose chains look for direct light too"],
+        ),
+        (
+            &["profile", scene, "--technique", "mlt", "--base", "bdpt"],
+            &["--base bdpt has no effect with mlt", "walk paths"],
+        ),
+        (
+            &["render", scene, "--technique", "mlt", "--strategy", "1,2"],
+            &["--strategy 1,2 has no effect with mlt"],
+        ),
+        (
+            &[
+                "render",
+                scene,
+                "--technique",
+                "mlt",
+                "--mutation",
+                "small_step:weight=0.5",
+            ],
+            &["--mutation small_step:weight=0.5 has no effect with mlt"],
         ),
     ];
     check_refusals(&cases);

@@ -3,7 +3,7 @@
 use chainlight::film::GroupFilm;
 use chainlight::path::ChainTable;
 use chainlight::plan::{ChainSettings, Plan, PlanOptions, Technique};
-use chainlight::render::{ChainRender, TileWorld};
+use chainlight::render::{ChainRender, Rendering, TileWorld};
 use chainlight::scene::Scene;
 use chainlight::table::{Column, Rows};
 use std::sync::{Arc, PoisonError};
@@ -77,7 +77,7 @@ impl Chains {
     #[track_caller]
     pub fn run(&self, scene: &Arc<Scene>, steps: u64) -> ChainRender {
         let mut render = self.start(scene);
-        render.run.burst(steps, &|_| {});
+        render.burst(steps, &|_| {});
         render
     }
 }

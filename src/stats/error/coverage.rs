@@ -6,7 +6,7 @@
 //! and their number is estimated, from the fewer groups the worse. Each test asserts the range it allows; a twin with a
 //! mistake has to leave it.
 
-use super::PictureError;
+use super::{IndependentBlocks, PictureError};
 use crate::stats::fisher::f_quantile;
 use crate::stats::group_means::GroupMeans;
 use crate::stats::synthetic::Source;
@@ -115,6 +115,11 @@ fn a_part_of_known_variances_covers_as_stated() {
         let total: f64 = variances.iter().sum::<f64>() / GROUPS as f64;
         for part in [0.1, 1.0, 10.0] {
             let known = vec![part * total / variances.len() as f64; variances.len()];
+            let blocks = IndependentBlocks {
+                variances: known.clone(),
+                channels: 1,
+                degrees_of_freedom: f64::INFINITY,
+            };
             let stated = |source: &mut Source, halved: f64| {
                 let values = (0..GROUPS).flat_map(|_| source.normals(&variances)).collect();
                 let means = GroupMeans::new(GROUPS, variances.len(), values).expect("a table");
@@ -125,7 +130,7 @@ fn a_part_of_known_variances_covers_as_stated() {
                     .zip(added)
                     .map(|(e, added)| e.mean + added);
                 let truth = (sums.map(|e| e * e).sum::<f64>() / variances.len() as f64).sqrt();
-                let error = PictureError::of_parts(&means, &known).expect("groups");
+                let error = PictureError::of_parts(&means, &blocks).expect("groups");
                 let inside = halved * error.interval[0] <= truth && truth <= halved * error.interval[1];
                 (inside, truth <= error.upper)
             };
