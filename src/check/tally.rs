@@ -147,7 +147,8 @@ mod tests {
             coins.add_coin(true, 1.0 - 1e-7, chain);
         }
         let mean = coins.mean(10_000);
-        assert!(mean.effective < 1.0 && mean.z().abs() < 0.1, "{mean:?}");
+        // Fewer than one effective value: no test is made of them. The mean itself is well within its error.
+        assert!(mean.effective < 1.0 && mean.mean.abs() < 0.1 * mean.error, "{mean:?}");
         // A coin that always comes up heads, and is said to be fair.
         let mut unfair = Tally::default();
         for chain in 0..10_000 {

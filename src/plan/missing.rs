@@ -395,7 +395,7 @@ mod tests {
                         missed.is_likely() && missed.what.contains("(lights[0] ("),
                         "{case}: {missed}"
                     );
-                    let with_both = technique == Technique::Bdpt || base == Base::Bdpt;
+                    let with_both = matches!(technique, Technique::Bdpt | Technique::Mlt) || base == Base::Bdpt;
                     let (share, found_by) = if with_both {
                         (Some(0.25), NOBODY)
                     } else {
