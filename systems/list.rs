@@ -53,36 +53,6 @@ list! {
     /// Copies the coordinates of their vertices.
     DRAW_IDENTITIES = DRAW, propose::draw_identities;
 
-    /// Chooses a length and a strategy for chains that try a new path.
-    PROPOSE_NEW_PATHS = PROPOSE, propose::propose_new_paths, in_phases(Phases::ALL);
-    /// Writes the densities of new paths.
-    WEIGH_NEW_PATHS = EVALUATE, propose::weigh_new_paths, in_phases(Phases::ALL);
-    /// Chooses which part of a path is replaced by what.
-    PROPOSE_BIDIRECTIONAL = PROPOSE, propose::propose_bidirectional;
-    /// Writes the densities of the parts.
-    WEIGH_BIDIRECTIONAL = EVALUATE, propose::weigh_bidirectional, in_phases(Phases::STEP);
-    /// Moves the place on the film of chains that perturb the lens's part of a path.
-    PROPOSE_LENS = PROPOSE, propose::propose_lens;
-    /// Follows the current path's discrete lobes from there.
-    STEER_LENS = DRAW, propose::steer_lens;
-    /// Writes the densities.
-    WEIGH_LENS = EVALUATE, propose::weigh_lens, in_phases(Phases::STEP);
-    /// Chooses how many vertices new lens subpaths have.
-    PROPOSE_LENS_SUBPATHS = PROPOSE, propose::propose_lens_subpaths;
-    /// Writes the densities.
-    WEIGH_LENS_SUBPATHS = EVALUATE, propose::weigh_lens_subpaths, in_phases(Phases::STEP);
-    /// Tilts the direction in which light leaves.
-    PROPOSE_CAUSTICS = PROPOSE, propose::propose_caustics;
-    /// Follows the current path's discrete lobes from there.
-    STEER_CAUSTICS = DRAW, propose::steer_caustics;
-    /// Writes the densities.
-    WEIGH_CAUSTICS = EVALUATE, propose::weigh_caustics, in_phases(Phases::STEP);
-    /// Moves the place on the film of chains that perturb several chains of surfaces.
-    PROPOSE_MULTI_CHAIN = PROPOSE, propose::propose_multi_chain;
-    /// Follows the current path's discrete lobes, and tilts the directions between them.
-    STEER_MULTI_CHAIN = DRAW, propose::steer_multi_chain;
-    /// Writes the densities.
-    WEIGH_MULTI_CHAIN = EVALUATE, propose::weigh_multi_chain, in_phases(Phases::STEP);
     /// Makes room for the subpaths that mutations ask for.
     MAKE_ROOM = PROPOSE, propose::make_room, in_phases(Phases::ALL);
     /// Copies what proposals keep of paths, and starts what is new.

@@ -55,6 +55,27 @@ impl<T: Table> Vertices<'_, '_, T> {
 }
 
 impl VertexColumns<'_> {
+    /// The kind of the vertex of this number.
+    #[inline]
+    #[must_use]
+    pub fn kind(&self, vertex: usize) -> u32 {
+        self.kinds.at(vertex)
+    }
+
+    /// Where it is.
+    #[inline]
+    #[must_use]
+    pub fn position(&self, vertex: usize) -> Vec3 {
+        self.positions.at(vertex)
+    }
+
+    /// Its material.
+    #[inline]
+    #[must_use]
+    pub fn material(&self, vertex: usize) -> u32 {
+        self.materials.at(vertex)
+    }
+
     /// The vertex of this number. Its direction is that in which its own path, or subpath, arrives.
     #[inline]
     #[must_use]

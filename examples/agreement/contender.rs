@@ -18,8 +18,8 @@ pub struct Contender {
     pub technique: Technique,
     /// What its chains run over.
     pub base: Base,
-    /// Who renders direct light beside chains of whole paths.
-    pub direct: Direct,
+    /// Who renders direct light beside chains of whole paths, if not as the scene says.
+    pub direct: Option<Direct>,
 }
 
 impl Contender {
@@ -38,7 +38,7 @@ impl Contender {
         Self {
             technique,
             base,
-            direct: Direct::Apart(16),
+            direct: None,
         }
     }
 
@@ -46,7 +46,7 @@ impl Contender {
     #[cfg_attr(not(test), expect(dead_code, reason = "tests alone compare it"))]
     pub const fn by_chains_alone(self) -> Self {
         Self {
-            direct: Direct::Chains,
+            direct: Some(Direct::Chains),
             ..self
         }
     }
@@ -81,7 +81,7 @@ impl fmt::Display for Contender {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.technique {
             Technique::Pssmlt => write!(f, "{} over {}", self.technique, self.base),
-            Technique::Mlt if self.direct == Direct::Chains => write!(f, "{} by chains alone", self.technique),
+            Technique::Mlt if self.direct == Some(Direct::Chains) => write!(f, "{} by chains alone", self.technique),
             technique => write!(f, "{technique}"),
         }
     }

@@ -1,11 +1,12 @@
 //! Families of test functions: the indicators of the cells of one partition of states.
 
-use super::coordinates;
+use super::{coordinates, path_families};
 use crate::chain::{Class, ProposedClass, ProposedTarget, Signature, StateClass, Target};
 use crate::film::BlockGrid;
 use crate::path::ChainTable;
 use crate::plan::TilePlan;
 use crate::render::TileWorld;
+use crate::scene::Scene;
 
 /// Which of the two states that a decision is between.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +57,7 @@ impl Family {
 }
 
 /// The families that states of a plan have. The first has one cell, which all states are in.
-pub(super) fn families(plan: &TilePlan, blocks: &BlockGrid) -> Vec<Family> {
+pub(super) fn families(plan: &TilePlan, blocks: &BlockGrid, scene: &Scene) -> Vec<Family> {
     let mut families = vec![
         Family::new(vec!["all states".to_owned()], false, |_, _, cells| cells.fill(0)),
         by_class((0..blocks.blocks()).map(|b| blocks.name(b)).collect(), |class| {
@@ -72,6 +73,7 @@ pub(super) fn families(plan: &TilePlan, blocks: &BlockGrid) -> Vec<Family> {
         octaves(),
     ];
     families.extend(coordinates::families(plan));
+    families.extend(path_families::families(plan, scene));
     families
 }
 

@@ -190,14 +190,14 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether the mean can be taken as normal. The last decision enters by expectation, which bounds values by what they
-    /// are likely to be; those before it are taken, and may carry the heaviest replica to where it seldom gets.
+    /// Whether the mean can be taken as normal. What is seldom taken one way is taken at once the other, but proposed the more
+    /// seldom: many small values on one side stand against a few on the other that are as large as the heaviest replica, whether
+    /// one of them is among the sample or not.
     fn can_judge(&self, row: &Tally, mean: &Mean) -> bool {
         let seen = row.most.value.max(-row.least.value);
-        let bound = if self.sheet.kind == TestKind::Target && self.sheet.steps > 1 {
-            seen.max(self.heaviest)
-        } else {
-            seen
+        let bound = match self.sheet.kind {
+            TestKind::Target | TestKind::Flow => seen.max(self.heaviest),
+            _ => seen,
         };
         let spread = mean.error * self.replicas as f64;
         mean.effective >= LEAST_EFFECTIVE && (spread == 0.0 || spread >= LEAST_SPREAD * bound)

@@ -27,6 +27,7 @@ mod error;
 mod family;
 mod instrument;
 mod judge;
+mod path_families;
 mod replicas;
 mod report;
 mod run;

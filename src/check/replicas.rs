@@ -1,14 +1,14 @@
 //! Replicas: independent chains, each at a bootstrap's sample of its own.
 
-use super::CheckError;
 use super::family::{Cells, Family, Side, families};
+use super::{CheckError, Options};
 use crate::chain::{
     Acceptance, BootstrapWeight, ChosenMutation, CommonDensity, ForwardDensity, ProposedTarget, Rejections,
     SupportDensity, Target,
 };
 use crate::film::{BlockGrid, GroupFilm};
 use crate::path::{ChainKey, ChainTable};
-use crate::plan::{Base, ChainPlan, ChainSettings, Plan, PlanOptions, Registry, StateSpace, Technique};
+use crate::plan::{ChainPlan, ChainSettings, Plan, PlanOptions, Registry, StateSpace, Technique};
 use crate::render::TileWorld;
 use crate::sampling::{Purpose, Stream, StreamKey};
 use crate::scene::Scene;
@@ -19,8 +19,6 @@ use std::sync::{Arc, Mutex};
 
 /// Replicas that run side by side.
 pub(super) const BATCH: u32 = 512;
-/// Candidates among which a replica's start is chosen, of states that are whole paths.
-const CANDIDATES: u64 = 16;
 /// Chooses among them.
 const CHOICE: Purpose = Purpose::named("start of a replica");
 /// Blocks along a side of the film.
@@ -45,9 +43,9 @@ impl Subject {
     pub(super) fn new(
         registry: Registry,
         name: &'static str,
-        (technique, base): (Technique, Base),
+        technique: Technique,
+        checked: &Options,
         scene: &Arc<Scene>,
-        seed: u64,
     ) -> Result<Self, CheckError> {
         let options = PlanOptions {
             tile_size: Some(BATCH),
@@ -58,7 +56,8 @@ impl Subject {
                 densities: true,
             },
             mutations: registry,
-            base,
+            base: checked.base,
+            direct: Some(checked.direct),
             ..PlanOptions::default()
         };
         let plan = Plan::with(scene, technique, &options)?;
@@ -69,17 +68,17 @@ impl Subject {
         let blocks = Arc::new(BlockGrid::new(scene.width, scene.height, BLOCKS_PER_SIDE));
         let number = chains.mutations.iter().position(|m| m.mutation.name() == name);
         Ok(Self {
-            families: families(&plan.tile, &blocks),
+            families: families(&plan.tile, &blocks, scene),
             number: number.unwrap_or(0),
             candidates: if technique.space() == Some(StateSpace::PATH) {
-                CANDIDATES
+                u64::from(checked.candidates.max(1))
             } else {
                 1
             },
             plan,
             chains,
             scene: Arc::clone(scene),
-            seed,
+            seed: checked.seed,
             blocks,
         })
     }

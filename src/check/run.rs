@@ -9,7 +9,7 @@ use super::report::{Report, SHOWN, TestKind, TestOutcome, Tested};
 use super::sheet::Sums;
 use super::witness::witness;
 use super::{density, stationary};
-use crate::plan::{AnyMutation, Base, Plan, Registry, Support, Technique};
+use crate::plan::{AnyMutation, Base, Direct, Plan, Registry, Support, Technique};
 use crate::scene::Scene;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -30,6 +30,11 @@ pub struct Options {
     pub among_all: bool,
     /// What primary-sample-space chains run over.
     pub base: Base,
+    /// Who renders direct light beside chains of whole paths: what is left to the chains is looked at.
+    pub direct: Direct,
+    /// Samples among which the start of each replica is chosen, of states that are whole paths: the more there are, the more
+    /// equally replicas count, and the smaller the biases that so many replicas see.
+    pub candidates: u32,
     /// Seed of all random numbers.
     pub seed: u64,
     /// Threads. Reports do not depend on it.
@@ -46,6 +51,8 @@ impl Default for Options {
             steps: vec![1, 2, 8],
             among_all: false,
             base: Base::default(),
+            direct: Direct::Chains,
+            candidates: 16,
             seed: 0,
             threads: 1,
             significance: 0.01,
@@ -331,8 +338,7 @@ impl Check<'_> {
     }
 
     fn subject(&self, registry: Registry, scene: &Arc<Scene>) -> Result<Subject, CheckError> {
-        let (name, options) = (self.mutation.name(), self.options);
-        Subject::new(registry, name, (self.technique, options.base), scene, options.seed)
+        Subject::new(registry, self.mutation.name(), self.technique, self.options, scene)
     }
 
     /// Runs `replicas` replicas on all threads, in batches of chains that no other run has.

@@ -5,7 +5,7 @@ use super::interrupt;
 use super::load::MutationArgs;
 use super::output::{note, print};
 use crate::check::{CheckError, Options, Report, built_in_scene, run_watched};
-use crate::plan::{Base, Registry};
+use crate::plan::{Base, Direct, Registry};
 use crate::scene::{Scene, SceneOverrides, flatten, read_scene};
 use crate::stats::normal::sidak;
 use clap::Args;
@@ -38,6 +38,10 @@ pub struct CheckArgs {
     /// What chains in primary sample space run over: pt or bdpt
     #[arg(long, value_name = "NAME", default_value_t)]
     base: Base,
+    /// Who renders direct light beside chains of whole paths: `chains`, or so many samples per pixel for every 100 mutations per
+    /// pixel, and chains walk among longer paths alone
+    #[arg(long, value_name = "N", default_value_t = Direct::Chains)]
+    direct: Direct,
     /// Seed of all random numbers: the same seed gives the same verdicts
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
@@ -84,6 +88,7 @@ pub fn run(args: &CheckArgs, registry: &Registry) -> Result<ExitCode> {
     let options = Options {
         among_all: args.among_all,
         base: args.base,
+        direct: args.direct,
         seed: args.seed,
         threads: args.threads.count(),
         significance: sidak(SIGNIFICANCE, names.len()),
@@ -147,14 +152,15 @@ fn refuse_unused(args: &CheckArgs, registry: &Registry) -> Result<()> {
         if settings
             .split(',')
             .any(|setting| setting.split('=').next().map(str::trim) == Some("weight"))
+            && !args.among_all
         {
             return Err(miette!(
-                help = "leave the weight out: it says how often renders try the mutation",
+                help = "leave the weight out, which says how often renders try the mutation, or give --among-all",
                 "--mutation {text}: a weight has no effect on checks, which try each mutation alone"
             ));
         }
         // Independent ones draw what chains start from.
-        let draws = registry.get(name).is_ok_and(|mutation| mutation.is_independent());
+        let draws = args.among_all || registry.get(name).is_ok_and(|mutation| mutation.is_independent());
         if let Some(checked) = args.name.as_deref().filter(|checked| *checked != name && !draws) {
             return Err(miette!(
                 help = format!("check `{name}`, or leave its settings out"),

@@ -56,7 +56,7 @@ pub struct StrategyArgs {
     #[arg(long, value_name = "NAME")]
     pub heuristic: Option<Heuristic>,
     /// Samples of direct light per pixel for every 100 mutations per pixel of mlt, and no fewer, by path tracing: light on paths of
-    /// at most 2 edges, which its chains then leave out. `chains` leaves it to them [default: 16]
+    /// at most 2 edges, which its chains then leave out. `chains` leaves it to them [default: 16, or chains behind a lens with an aperture]
     #[arg(long, value_name = "N")]
     pub direct: Option<Direct>,
 }
@@ -125,13 +125,12 @@ impl SceneArgs {
             })?,
             (None, None) => Technique::default(),
         };
-        let max_depth = self.max_depth.unwrap_or(source.description.settings.max_depth);
-        unused::refuse(self, technique, max_depth, &mutations)?;
         let overrides = SceneOverrides {
             size: self.size,
             max_depth: self.max_depth,
         };
         let scene = Arc::new(Scene::compile(&source.description, &flattened, overrides)?);
+        unused::refuse(self, technique, &scene, &mutations)?;
         let warnings: Vec<String> = flattened.warnings.iter().map(|warning| warning.plain()).collect();
         for warning in &warnings {
             note(&format!("warning: {warning}"));
@@ -143,7 +142,7 @@ impl SceneArgs {
             base: self.strategies.base.unwrap_or_default(),
             strategy: self.strategies.strategy,
             heuristic: self.strategies.heuristic.unwrap_or_default(),
-            direct: self.strategies.direct.unwrap_or_default(),
+            direct: self.strategies.direct,
         };
         let plan = Plan::with(&scene, technique, &options)?;
         Ok(Loaded {

@@ -3,15 +3,16 @@
 use super::load::{SceneArgs, StrategyArgs};
 use crate::path::mis::Heuristic;
 use crate::plan::{Base, Direct, Registry, StateSpace, Technique};
+use crate::scene::Scene;
 use crate::scene::description::MAX_DEPTH_LIMIT;
 use miette::{Result, miette};
 
-/// Refuses options that have no effect on a render with `technique` of paths of at most `max_depth` edges. `mutations` are
-/// those there are.
+/// Refuses options that have no effect on a render of `scene` with `technique`. `mutations` are those there are.
 ///
 /// # Errors
 /// The first such option: why it has no effect, and what to do.
-pub fn refuse(args: &SceneArgs, technique: Technique, max_depth: u32, mutations: &Registry) -> Result<()> {
+pub fn refuse(args: &SceneArgs, technique: Technique, scene: &Scene, mutations: &Registry) -> Result<()> {
+    let max_depth = scene.max_depth;
     refuse_of_chains(args, technique, mutations)?;
     let strategies = &args.strategies;
     let has_base = technique.space() == Some(StateSpace::PRIMARY);
@@ -66,7 +67,7 @@ pub fn refuse(args: &SceneArgs, technique: Technique, max_depth: u32, mutations:
         }
     }
     if let Some(heuristic) = strategies.heuristic {
-        refuse_heuristic(heuristic, technique, max_depth, strategies)?;
+        refuse_heuristic(heuristic, technique, scene, strategies)?;
     }
     Ok(())
 }
@@ -98,10 +99,10 @@ fn refuse_direct(direct: Direct, technique: Technique, max_depth: u32) -> Result
 fn refuse_heuristic(
     heuristic: Heuristic,
     technique: Technique,
-    max_depth: u32,
+    scene: &Scene,
     strategies: &StrategyArgs,
 ) -> Result<()> {
-    let direct = strategies.direct.unwrap_or_default().within(max_depth);
+    let direct = Direct::in_scene(strategies.direct, scene);
     if technique == Technique::Mlt && direct == Direct::Chains {
         return Err(miette!(
             help = "leave --heuristic out; pt, bdpt and pssmlt weigh their ways to find a path by it, and mlt those of direct \

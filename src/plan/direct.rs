@@ -65,6 +65,19 @@ impl Direct {
         if is_direct(max_depth) { Self::Chains } else { self }
     }
 
+    /// Who renders direct light of a scene where `asked` is to. If nobody is asked for, chains do behind a camera with an aperture: a
+    /// small lamp out of focus is in many pixels at once, each of which finds it by a few of its paths through the lens, but chains
+    /// walk along it.
+    #[must_use]
+    pub fn in_scene(asked: Option<Self>, scene: &Scene) -> Self {
+        let by_scene = if scene.camera.has_aperture() {
+            Self::Chains
+        } else {
+            Self::default()
+        };
+        asked.unwrap_or(by_scene).within(scene.max_depth)
+    }
+
     /// The fewest edges of paths that chains look for.
     #[must_use]
     pub const fn shortest_of_chains(self) -> u32 {

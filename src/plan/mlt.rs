@@ -24,20 +24,24 @@ pub(super) fn states(scene: &Scene, effects: &[EffectPlan]) -> StateSystems {
 }
 
 fn systems(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> {
-    let mut systems = vec![
-        SystemPlan::new(MAKE_ROOM, "kept subpaths can be deep from the start"),
-        SystemPlan::new(START_PATHS, "mutations keep parts of paths"),
-    ];
+    let mut systems = Vec::new();
+    // Without light there is no path that brings any.
     if is_on(effects, Effect::Emission) {
+        systems.extend([
+            SystemPlan::new(MAKE_ROOM, "kept subpaths can be deep from the start"),
+            SystemPlan::new(START_PATHS, "mutations keep parts of paths"),
+        ]);
         systems.extend(walks(scene, effects, scene.max_depth));
         if let Some(goes_on) = systems.iter_mut().find(|system| system.spec == CONTINUE_PATHS) {
             *goes_on = SystemPlan::new(CONTINUE_TO_STOP, "mutations say how long subpaths are");
         }
+        systems.extend([
+            SystemPlan::new(JOIN_PATHS, "one edge completes a path"),
+            SystemPlan::new(TRANSMIT_PATHS, "what stands in between has to be known"),
+            SystemPlan::new(TAKE_PATHS, "accepted proposals become states"),
+        ]);
     }
     systems.extend([
-        SystemPlan::new(JOIN_PATHS, "one edge completes a path"),
-        SystemPlan::new(TRANSMIT_PATHS, "what stands in between has to be known"),
-        SystemPlan::new(TAKE_PATHS, "accepted proposals become states"),
         SystemPlan::new(SPLAT_STATES, "both states of a decision go to the film"),
         SystemPlan::new(TAKE_SPLATS, "accepted proposals become states"),
     ]);
@@ -45,18 +49,25 @@ fn systems(scene: &Scene, effects: &[EffectPlan]) -> Vec<SystemPlan> {
 }
 
 fn tables(scene: &Scene, effects: &[EffectPlan]) -> Vec<TablePlan> {
+    let lists = [
+        splats(TableId::SPLATS).holding_state(),
+        splats(TableId::PROPOSED_SPLATS),
+    ];
+    let mut tables = vec![chains(effects)];
+    if !is_on(effects, Effect::Emission) {
+        tables.extend(lists);
+        return tables;
+    }
     let mut rays = ray_columns();
     rays.column::<SegmentTarget>("a segment joins subpaths")
         .column::<SegmentTransmittance>("what passes along it");
-    let mut tables = vec![
-        chains(effects),
+    tables.extend([
         proposals(scene),
         paths(scene, TableId::PATHS).holding_state(),
         paths(scene, TableId::PROPOSED_PATHS),
         rays,
-        splats(TableId::SPLATS).holding_state(),
-        splats(TableId::PROPOSED_SPLATS),
-    ];
+    ]);
+    tables.extend(lists);
     if scatters(effects) {
         tables.push(scatter_lists(scene));
     }

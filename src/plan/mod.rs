@@ -54,8 +54,8 @@ pub struct PlanOptions {
     pub strategy: Option<(u32, u32)>,
     /// How weights are made of densities, where strategies share paths.
     pub heuristic: Heuristic,
-    /// Who renders direct light beside chains in path space.
-    pub direct: Direct,
+    /// Who renders direct light beside chains in path space; the scene says, where this does not ([`Direct::in_scene`]).
+    pub direct: Option<Direct>,
 }
 
 impl Default for PlanOptions {
@@ -67,7 +67,7 @@ impl Default for PlanOptions {
             base: Base::default(),
             strategy: None,
             heuristic: Heuristic::default(),
-            direct: Direct::default(),
+            direct: None,
         }
     }
 }
@@ -198,7 +198,7 @@ impl Plan {
                 strategies = Some(Strategies::default());
                 let states = mlt::states(scene, &effects);
                 let mut tile = chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size);
-                let by = options.direct.within(scene.max_depth);
+                let by = Direct::in_scene(options.direct, scene);
                 tile.shortest = by.shortest_of_chains();
                 if let Direct::Apart(samples) = by {
                     direct = Some(DirectPlan::new(

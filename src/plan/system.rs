@@ -254,8 +254,8 @@ impl fmt::Debug for SystemSpec {
 }
 
 /// Makes a [`SystemSpec`](crate::plan::SystemSpec) of a system function: `system!(Place::Stage(Stage::Accept), decide)`,
-/// or `system!(place, module, function)` where the function stands in a module. The crate needs `bevy_ecs` among its
-/// dependencies.
+/// or `system!(place, module, function)` where the function stands in a module, or `system!(place, "name" => function)` where
+/// one function is several systems. The crate needs `bevy_ecs` among its dependencies.
 #[macro_export]
 macro_rules! system {
     ($place:expr, $function:ident) => {
@@ -263,6 +263,17 @@ macro_rules! system {
             use $crate::bevy_ecs::schedule::IntoScheduleConfigs;
             schedule.add_systems(
                 $function
+                    .in_set($crate::plan::InPlan::At(spec.place()))
+                    .in_set($crate::plan::InPlan::System(spec)),
+            );
+        })
+    };
+    ($place:expr, $name:expr => $function:expr) => {
+        $crate::plan::SystemSpec::new($name, $place, |schedule, spec| {
+            use $crate::bevy_ecs::{schedule::IntoScheduleConfigs, system::IntoSystem};
+            schedule.add_systems(
+                IntoSystem::into_system($function)
+                    .with_name($name)
                     .in_set($crate::plan::InPlan::At(spec.place()))
                     .in_set($crate::plan::InPlan::System(spec)),
             );

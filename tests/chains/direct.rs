@@ -28,7 +28,7 @@ fn chains(direct: Direct) -> Chains {
         technique: Technique::Mlt,
         ..Chains::new(2, 50, 400)
     };
-    chains.options.direct = direct;
+    chains.options.direct = Some(direct);
     chains
 }
 
@@ -303,7 +303,7 @@ fn no_other_technique_renders_direct_light_apart() {
     for technique in Technique::ALL {
         for direct in [Direct::default(), Direct::Chains] {
             let options = PlanOptions {
-                direct,
+                direct: Some(direct),
                 ..PlanOptions::default()
             };
             let plan = Plan::with(&scene, technique, &options).expect("the defaults make a plan");

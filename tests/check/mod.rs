@@ -2,8 +2,8 @@
 
 mod command;
 mod example;
+mod path_twins;
 mod paths;
-mod spoiled;
 mod steps;
 mod twins;
 mod verdicts;

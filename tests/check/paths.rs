@@ -1,24 +1,16 @@
 //! Mutations of whole paths: each alone, and mixed with the one that draws seeds, leaves the light unchanged in three scenes; each
-//! kind of mistake in their densities is found.
+//! kind of mistake in their densities is found, by replicas with which the mutation itself passes.
 
-use super::spoiled::Spoiled;
+use super::path_twins::*;
 use super::verdicts::quick;
-use crate::support::scenes::shipped;
+use crate::physics::enclosure::walls;
+use crate::support::scenes::{inline, shipped};
 use crate::support::verdict::say;
-use bevy_ecs::system::Res;
-use chainlight::chain::{ForwardDensity, MutationList, ReverseDensity};
 use chainlight::check::{Options, Report, built_in_scene, run};
-use chainlight::path::ChainTable;
-use chainlight::path::whole::*;
-use chainlight::plan::{Place, Registered, Registry, Stage, StateSpace, SystemPlan, SystemSpec};
+use chainlight::plan::{Direct, Mutation, Registry, StateSpace};
 use chainlight::scene::Scene;
 use chainlight::stats::normal::sidak;
-use chainlight::system;
-use chainlight::systems::chains::MutationLists;
-use chainlight::systems::propose::paths::weighing::Weighing;
-use chainlight::systems::propose::{Bidirectional, CausticPerturbation, LensPerturbation, mutations};
-use chainlight::systems::tile::TilePlace;
-use chainlight::table::{Read, Rows, Write};
+use chainlight::systems::propose::mutations;
 use std::sync::Arc;
 
 fn check(registry: &Registry, name: &str, scene: &Arc<Scene>, options: &Options) -> Report {
@@ -27,28 +19,40 @@ fn check(registry: &Registry, name: &str, scene: &Arc<Scene>, options: &Options)
     report
 }
 
-/// A registry with `name` spoiled by a system that runs behind its own.
-fn spoiled(name: &str, system: SystemSpec) -> Registry {
-    let mut registry = mutations();
-    let inner = Arc::clone(registry.get(name).expect("a mutation"));
-    registry.put(Arc::new(Spoiled {
-        inner,
-        systems: vec![SystemPlan::new(system, "a twin")],
-    }));
-    registry
+/// The registry with these settings, and the same with a twin of those settings in place of one mutation.
+fn with_twin<M: Mutation>(settings: &[&str], twin: M) -> [Registry; 2] {
+    [mutations(), mutations().with(twin)].map(|mut registry| {
+        for setting in settings {
+            assert_eq!(registry.set(setting), Ok(()));
+        }
+        registry
+    })
+}
+
+/// Holds that the harness refuses a twin, and passes the mutation that it is a twin of.
+#[track_caller]
+fn is_refused<M: Mutation>(settings: &[&str], twin: M, scene: &Arc<Scene>, options: &Options) {
+    let [right, wrong] = with_twin(settings, twin).map(|registry| check(&registry, M::NAME, scene, options));
+    assert!(right.failures().0.is_empty(), "{right}");
+    assert!(!wrong.failures().0.is_empty(), "{wrong}");
 }
 
 #[test]
 fn every_mutation_of_paths_passes_in_three_scenes() {
-    let scenes = [("cornell-box.ron", 12), ("cornell-glass.ron", 12), ("door-ajar.ron", 8)];
+    let scenes = [
+        ("cornell-box.ron", 12, Direct::Chains),
+        ("cornell-glass.ron", 12, Direct::default()),
+        ("door-ajar.ron", 8, Direct::Chains),
+    ];
     let registry = mutations();
     let paths = || registry.iter().filter(|m| m.space() == StateSpace::PATH);
-    let options = Options {
-        replicas: 1 << 14,
-        significance: sidak(0.01, scenes.len() * paths().count()),
-        ..quick()
-    };
-    for (name, size) in scenes {
+    for (name, size, direct) in scenes {
+        let options = Options {
+            replicas: 1 << 14,
+            significance: sidak(0.01, scenes.len() * paths().count()),
+            direct,
+            ..quick()
+        };
         let scene = shipped(name, size);
         for mutation in paths() {
             let report = check(&registry, mutation.name(), &scene, &options);
@@ -58,110 +62,100 @@ fn every_mutation_of_paths_passes_in_three_scenes() {
     }
 }
 
-const EVALUATE: Place = Place::Stage(Stage::Evaluate);
-
-/// Writes T as if only the strategy that has drawn the proposal could have done so, and one for the way back.
-fn count_one_strategy(
-    mutation: Res<Registered<Bidirectional>>,
-    place: Res<TilePlace>,
-    lists: Res<MutationLists>,
-    list: Read<MutationList, ChainTable>,
-    made: Read<CameraVertices, ChainTable>,
-    kept: Read<KeptFromCamera, ChainTable>,
-    edges: Read<PathEdges, ChainTable>,
-    shares: Read<PathShare, PathTable>,
-    proposed_edges: Read<ProposedEdges, ChainTable>,
-    proposed_shares: Read<PathShare, ProposedPathTable>,
-    light_kept: Read<KeptFromLight, ChainTable>,
-    mut forward: Write<ForwardDensity, ChainTable>,
-    mut reverse: Write<ReverseDensity, ChainTable>,
-) {
-    let (list, made, kept, light_kept) = (list.rows(), made.rows(), kept.rows(), light_kept.rows());
-    let (edges, shares, proposed_edges, proposed_shares) = (
-        edges.rows(),
-        shares.rows(),
-        proposed_edges.rows(),
-        proposed_shares.rows(),
+/// A room whose walls all emit: every path that is proposed brings about as much light, and nearly all are taken.
+fn room_of_light() -> Arc<Scene> {
+    let text = format!(
+        r#"(version: 1, settings: (max_depth: 8),
+        camera: Perspective(origin: (0.3, -0.4, 0.5), target: (-0.2, 0.1, -1), fov: 100),
+        film: (width: 12, height: 12), materials: {{"wall": Diffuse(reflectance: (0.5, 0.5, 0.5))}},
+        shapes: [{}])"#,
+        walls()
     );
-    let (forward, reverse) = (forward.rows(), reverse.rows());
-    for chain in lists.entries(mutation.number).map(|entry| list.at(entry) as usize) {
-        let (k, to) = (edges.at(chain), proposed_edges.at(chain));
-        if k == 0 || to == 0 || made.at(chain) == 0 {
-            continue;
-        }
-        let (first, rest) = (kept.at(chain).max(1), light_kept.at(chain));
-        let share = |of: &[PathShare], t: u32| of.at(place.path_vertex(chain, t as usize - 1));
-        let one = |of: &[PathShare], edges: u32| {
-            let last = edges + 1 - rest;
-            let all: f64 = (first..=last).map(|t| share(of, t)).sum();
-            libm::log(share(of, made.at(chain).clamp(first, last)) / all)
-        };
-        forward.put(chain, forward.at(chain) + one(proposed_shares, to));
-        reverse.put(chain, reverse.at(chain) + one(shares, k));
+    inline(&text, 12)
+}
+
+/// Replicas that count about equally and take many steps: a factor of a few per cent moves them where it draws chains.
+fn patient() -> Options {
+    Options {
+        replicas: 1 << 15,
+        candidates: 64,
+        steps: vec![1, 32],
+        // Lamps that the lens sees would be most of the light.
+        direct: Direct::default(),
+        ..quick()
     }
 }
 
 #[test]
 fn a_density_of_one_strategy_alone_fails() {
-    let registry = spoiled("bidirectional", system!(EVALUATE, count_one_strategy));
-    let options = Options {
-        replicas: 1 << 17,
-        steps: vec![1],
-        ..quick()
-    };
-    let report = check(&registry, "bidirectional", &shipped("cornell-box.ron", 12), &options);
-    assert!(!report.passed(), "{report}");
+    let scene = shipped("cornell-box.ron", 12);
+    is_refused(&[], OneStrategy::default(), &scene, &patient());
 }
 
-/// Writes T of lens perturbations without the share of their strategy, in which the geometry of the edge is that they join.
-fn forget_geometry(
-    mutation: Res<Registered<LensPerturbation>>,
-    place: Res<TilePlace>,
-    lists: Res<MutationLists>,
-    list: Read<MutationList, ChainTable>,
-    mut weighing: Weighing,
-) {
-    let list = list.rows();
-    let chains = lists.entries(mutation.number).map(|entry| list.at(entry) as usize);
-    weighing.weigh(&place, chains, |_, _| 1.0);
+#[test]
+fn a_density_that_is_a_little_too_large_where_paths_grow_fails() {
+    let options = Options {
+        replicas: 1 << 17,
+        candidates: 16,
+        steps: vec![64],
+        direct: Direct::Chains,
+        ..patient()
+    };
+    is_refused(&[], TooMuchGrowth::default(), &room_of_light(), &options);
 }
 
 #[test]
 fn a_lens_perturbation_that_forgets_the_geometry_of_its_edge_fails() {
-    let registry = spoiled("lens", system!(EVALUATE, forget_geometry));
     let scene = built_in_scene().expect("a scene");
-    let options = Options {
-        replicas: 1 << 17,
-        steps: vec![1],
-        ..quick()
-    };
-    let report = check(&registry, "lens", &scene, &options);
-    assert!(!report.passed(), "{report}");
+    is_refused(&[], WithoutGeometry::default(), &scene, &patient());
 }
 
-/// Writes T of caustic perturbations without the densities of the directions that they do not draw.
-fn forget_directions(
-    mutation: Res<Registered<CausticPerturbation>>,
-    place: Res<TilePlace>,
-    lists: Res<MutationLists>,
-    list: Read<MutationList, ChainTable>,
-    mut weighing: Weighing,
-) {
-    let list = list.rows();
-    let chains = lists.entries(mutation.number).map(|entry| list.at(entry) as usize);
-    weighing.weigh(&place, chains, |_, way| way.to.share(1));
+/// The lamp is round: the nearer to it, the smaller is its part that can be chosen.
+#[test]
+fn a_lens_subpath_that_forgets_how_its_light_is_chosen_fails() {
+    let text = r#"(version: 1, settings: (max_depth: 2),
+        camera: Perspective(origin: (0, 0.55, 0), target: (0, 0, 0), up: (1, 0, 0), fov: 140),
+        film: (width: 12, height: 12), materials: {"white": Diffuse(reflectance: (0.7, 0.7, 0.7))},
+        shapes: [
+            (shape: Quad(corner: (-3, 0, 3), edge_u: (6, 0, 0), edge_v: (0, 0, -6)), material: "white"),
+            (shape: Sphere(center: (0, 1, 0), radius: 0.4), material: "white", emission: (1, 1, 1)),
+        ])"#;
+    let options = Options {
+        direct: Direct::Chains,
+        ..patient()
+    };
+    is_refused(&[], WithoutKeptLight::default(), &inline(text, 12), &options);
 }
 
 #[test]
 fn a_caustic_perturbation_that_forgets_the_density_of_directions_fails() {
-    let registry = spoiled("caustic", system!(EVALUATE, forget_directions));
-    let scene = built_in_scene().expect("a scene");
     let options = Options {
-        replicas: 1 << 17,
-        ..quick()
+        candidates: 4,
+        direct: Direct::Chains,
+        ..patient()
     };
-    let report = check(&registry, "caustic", &scene, &options);
-    assert!(!report.passed(), "{report}");
+    let settings = ["caustic:smallest=1,covered=1"];
+    is_refused(&settings, WithoutDirections::default(), &room_of_light(), &options);
+}
+
+#[test]
+fn a_caustic_perturbation_whose_steps_do_not_lead_back_fails() {
+    let scene = built_in_scene().expect("a scene");
+    // Few sizes: what is too large one way is often too small the other.
+    let settings = ["caustic:smallest=2,covered=0.0001"];
+    is_refused(&settings, WithoutWayBack::default(), &scene, &patient());
+}
+
+#[test]
+fn a_density_without_the_probability_of_choosing_the_mutation_fails() {
+    let options = Options {
+        among_all: true,
+        ..patient()
+    };
+    // Where there is a caustic, the others are chosen the less often.
+    let settings = ["caustic:weight=20"];
+    let scene = built_in_scene().expect("a scene");
+    is_refused(&settings, WithoutChoices::default(), &scene, &options);
 }
 
 #[test]

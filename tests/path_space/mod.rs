@@ -7,12 +7,15 @@ mod mixed;
 mod scale;
 
 use crate::support::chains::Chains;
-use chainlight::plan::Technique;
+use chainlight::plan::{Direct, Technique};
 
-/// Chains in path space: `groups` groups of `chains`, each group with a bootstrap of `bootstrap` samples.
+/// Chains in path space that look for direct light too: `groups` groups of `chains`, each group with a bootstrap of `bootstrap`
+/// samples.
 fn paths(groups: u32, chains: u32, bootstrap: u32) -> Chains {
-    Chains {
+    let mut paths = Chains {
         technique: Technique::Mlt,
         ..Chains::new(groups, chains, bootstrap)
-    }
+    };
+    paths.options.direct = Some(Direct::Chains);
+    paths
 }

@@ -5,7 +5,7 @@
 mod camera;
 mod direct_light;
 mod discrete_light;
-mod enclosure;
+pub mod enclosure;
 mod energy;
 mod environment;
 mod fresnel;

@@ -11,19 +11,12 @@
 //!
 //! T(x→y) sums over every strategy that could have drawn the new vertices, however many of them came from either side.
 
-use super::super::super::chains::{Keys, MutationLists};
-use super::super::super::list::{PROPOSE_BIDIRECTIONAL, WEIGH_BIDIRECTIONAL};
-use super::super::super::tile::{SceneRef, TilePlace};
-use super::range::{PathRange, Ranges};
-use super::weighing::Weighing;
-use crate::chain::MutationList;
-use crate::path::whole::{Deletion, PathEdges, PathTable, Replacement};
-use crate::path::{ChainTable, VertexMaterial};
-use crate::plan::{Mutation, Registered, StateSpace, SystemPlan};
-use crate::sampling::Purpose;
-use crate::scene::Scene;
-use crate::table::{Read, Rows};
-use bevy_ecs::system::Res;
+use super::moves_paths::{MovesPaths, PathProposal, Way};
+use super::view::PathView;
+use crate::path::whole::{Deletion, Replacement};
+use crate::path_systems;
+use crate::plan::{Mutation, StateSpace, SystemPlan};
+use crate::sampling::{Purpose, StreamKey};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
@@ -50,42 +43,26 @@ impl Mutation for Bidirectional {
     }
 
     fn systems(&self) -> Vec<SystemPlan> {
-        vec![
-            SystemPlan::new(PROPOSE_BIDIRECTIONAL, "part of the path is replaced"),
-            SystemPlan::new(WEIGH_BIDIRECTIONAL, "any strategy could have drawn that part"),
-        ]
+        path_systems!(Self, "bidirectional":
+            propose "part of the path is replaced",
+            weigh "any strategy could have drawn that part")
     }
 }
 
-/// The current paths of chains, as far as deletions ask.
-struct Paths<'a> {
-    scene: &'a Scene,
-    place: &'a TilePlace,
-    materials: &'a [VertexMaterial],
-}
-
-impl Paths<'_> {
-    /// Whether vertex `depth` of a chain's current path is on a surface that can be joined to others.
-    fn joins(&self, chain: usize, depth: u32) -> bool {
-        let material = self.materials.at(self.place.path_vertex(chain, depth as usize));
-        !self.scene.materials.kind(material).is_discrete()
-    }
-
-    /// t of the strategies that can put `vertices` into a gap of the current path of a chain, which has `edges`: whether the
-    /// vertices on its sides can be joined does not change when others are put in.
-    fn strategies(&self, chain: usize, edges: u32, deletion: Deletion, vertices: u32) -> RangeInclusive<u32> {
-        let Deletion {
-            from_camera,
-            from_light,
-            ..
-        } = deletion;
-        let first = match from_camera {
-            0 => 1,
-            kept => kept + u32::from(!self.joins(chain, kept - 1)),
-        };
-        let last = from_camera + vertices;
-        first..=last - u32::from(from_light > 0 && !self.joins(chain, edges + 1 - from_light))
-    }
+/// t of the strategies that can put `vertices` into a gap of a path: whether the vertices on its sides can be joined does not change
+/// when others are put in.
+fn strategies(path: &PathView<'_>, deletion: Deletion, vertices: u32) -> RangeInclusive<u32> {
+    let Deletion {
+        from_camera,
+        from_light,
+        ..
+    } = deletion;
+    let first = match from_camera {
+        0 => 1,
+        kept => kept + u32::from(!path.joins(kept - 1)),
+    };
+    let last = from_camera + vertices;
+    first..=last - u32::from(from_light > 0 && !path.joins(path.edges + 1 - from_light))
 }
 
 /// How many numbers a range has.
@@ -93,74 +70,35 @@ fn count(range: &RangeInclusive<u32>) -> u32 {
     (range.end() + 1).saturating_sub(*range.start())
 }
 
-/// Chooses what is replaced by how much, and from which sides, for every chain that tries it.
-pub fn propose_bidirectional(
-    mutation: Res<Registered<Bidirectional>>,
-    scene: Res<SceneRef>,
-    place: Res<TilePlace>,
-    lists: Res<MutationLists>,
-    list: Read<MutationList, ChainTable>,
-    keys: Keys,
-    edges: Read<PathEdges, ChainTable>,
-    materials: Read<VertexMaterial, PathTable>,
-    mut ranges: Ranges,
-) {
-    let replacement = replacement(&scene, &place);
-    let paths = Paths {
-        scene: &scene.0,
-        place: &place,
-        materials: materials.rows(),
-    };
-    let (list, keys, edges) = (list.rows(), keys.columns(), edges.rows());
-    for chain in lists.entries(mutation.number).map(|entry| list.at(entry) as usize) {
-        let length = edges.at(chain);
-        let mut stream = keys.at(chain).stream(Purpose::PERTURB, 0);
-        let [u, v, w, x] = std::array::from_fn(|_| stream.next_f64());
-        let chosen = (length > 0).then(|| {
-            let deletion = replacement.delete(length, u, v);
-            let growth = replacement.growth(length, deletion);
-            if growth.least > growth.most {
-                return None;
-            }
-            let vertices = growth.sample(deletion.vertices, w);
-            let strategies = paths.strategies(chain, length, deletion, vertices);
-            let count = count(&strategies);
-            (count > 0).then(|| {
-                let t = strategies.start() + ((x * f64::from(count)) as u32).min(count - 1);
-                PathRange {
-                    kept: [deletion.from_camera, deletion.from_light],
-                    made: [t, deletion.from_camera + vertices + deletion.from_light - t],
-                    steered: [false; 2],
-                }
-            })
-        });
-        match chosen.flatten() {
-            Some(range) => ranges.put(&place, chain, range),
-            None => ranges.none(chain),
-        }
+fn replacement(path: &PathView<'_>) -> Replacement {
+    Replacement {
+        shortest: path.shortest(),
+        longest: path.longest(),
     }
 }
 
-/// Writes the densities of what was put in, and of what was taken out.
-pub fn weigh_bidirectional(
-    mutation: Res<Registered<Bidirectional>>,
-    scene: Res<SceneRef>,
-    place: Res<TilePlace>,
-    lists: Res<MutationLists>,
-    list: Read<MutationList, ChainTable>,
-    edges: Read<PathEdges, ChainTable>,
-    materials: Read<VertexMaterial, PathTable>,
-    mut weighing: Weighing,
-) {
-    let replacement = replacement(&scene, &place);
-    let paths = Paths {
-        scene: &scene.0,
-        place: &place,
-        materials: materials.rows(),
-    };
-    let (list, edges) = (list.rows(), edges.rows());
-    let chains = lists.entries(mutation.number).map(|entry| list.at(entry) as usize);
-    weighing.weigh(&place, chains, |chain, way| {
+impl MovesPaths for Bidirectional {
+    fn propose(&self, path: &PathView<'_>, key: StreamKey) -> Option<PathProposal> {
+        let replacement = replacement(path);
+        let mut stream = key.stream(Purpose::PERTURB, 0);
+        let [u, v, w, x] = std::array::from_fn(|_| stream.next_f64());
+        let deletion = replacement.delete(path.edges, u, v);
+        let growth = replacement.growth(path.edges, deletion);
+        if growth.least > growth.most {
+            return None;
+        }
+        let vertices = growth.sample(deletion.vertices, w);
+        let strategies = strategies(path, deletion, vertices);
+        let count = count(&strategies);
+        (count > 0).then(|| {
+            let t = strategies.start() + ((x * f64::from(count)) as u32).min(count - 1);
+            let s = deletion.from_camera + vertices + deletion.from_light - t;
+            PathProposal::new([deletion.from_camera, deletion.from_light], [t, s])
+        })
+    }
+
+    fn density(&self, way: &Way<'_>) -> f64 {
+        let replacement = replacement(&way.from);
         let [from_camera, from_light] = way.kept;
         let kept = from_camera + from_light;
         let deletion = Deletion {
@@ -169,20 +107,12 @@ pub fn weigh_bidirectional(
             from_light,
         };
         let vertices = way.to.edges + 1 - kept;
-        let strategies = paths.strategies(chain, edges.at(chain), deletion, vertices);
+        let growth = replacement.growth(way.from.edges, deletion);
+        let strategies = strategies(&way.from, deletion, vertices);
         let choices = f64::from(count(&strategies));
         let shares: f64 = strategies.map(|t| way.to.share(t)).sum();
         replacement.deletion(way.from.edges, deletion)
-            * replacement
-                .growth(way.from.edges, deletion)
-                .probability(deletion.vertices, vertices)
+            * growth.probability(deletion.vertices, vertices)
             * (shares / choices)
-    });
-}
-
-fn replacement(scene: &SceneRef, place: &TilePlace) -> Replacement {
-    Replacement {
-        shortest: place.shortest,
-        longest: scene.0.max_depth,
     }
 }

@@ -14,30 +14,16 @@
 //! over that of the path behind it; light from infinity moves by the width of a pixel where the lens sees it. T(x→y): one strategy;
 //! steps are as likely one way as the other, except that those which are too small or too large for y cannot lead back.
 
-use super::super::super::chains::{Keys, MutationLists};
-use super::super::super::list::{PROPOSE_CAUSTICS, STEER_CAUSTICS, WEIGH_CAUSTICS};
-use super::super::super::paths::Vertices;
-use super::super::super::tile::{SceneRef, TilePlace};
 use super::film_jump::{check_film_sizes, film_sizes};
-use super::range::{PathRange, Ranges};
-use super::steering::Steering;
-use super::weighing::{PathDensities, Weighing};
-use crate::chain::{MutationList, StateClass};
-use crate::columns;
-use crate::path::whole::*;
-use crate::path::{ChainTable, Direction, DrawList, VERTEX_DISCRETE, VERTEX_INFINITE};
-use crate::plan::{Mutation, Registered, StateSpace, SystemPlan, TablePlan};
-use crate::sampling::Purpose;
-use crate::scene::Scene;
-use crate::table::{Read, Rows, Write};
-use bevy_ecs::system::Res;
+use super::moves_paths::{MovesPaths, PathProposal, SteeredLight, Way};
+use super::view::PathView;
+use crate::chain::StateClass;
+use crate::path::whole::{CAUSTIC_TRAIT, Sizes, SteeredOrigin, aside, tilt};
+use crate::path::{DrawList, VERTEX_INFINITE};
+use crate::path_systems;
+use crate::plan::{Mutation, StateSpace, SystemPlan, TablePlan};
+use crate::sampling::{Purpose, StreamKey};
 use serde::{Deserialize, Serialize};
-
-columns! {
-    /// The angle by which a caustic perturbation has changed a direction, in radians; of light from infinity, how far it has moved
-    /// it, in scene units.
-    pub CausticStep: f64;
-}
 
 /// Settings of `caustic`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -79,130 +65,89 @@ impl Mutation for CausticPerturbation {
     }
 
     fn systems(&self) -> Vec<SystemPlan> {
-        vec![
-            SystemPlan::new(PROPOSE_CAUSTICS, "light leaves in a direction nearby"),
-            SystemPlan::new(STEER_CAUSTICS, "and comes by way of the same kinds of surfaces"),
-            SystemPlan::new(WEIGH_CAUSTICS, "each way is as likely as its strategy"),
-        ]
+        path_systems!(Self, "caustic":
+            propose "light leaves in a direction nearby",
+            steer "and comes by way of the same kinds of surfaces",
+            weigh "each way is as likely as its strategy")
     }
 
     fn columns(&self, tables: &mut [TablePlan]) {
         if let Some(chains) = tables.first_mut() {
             chains
                 .column::<DrawList>("perturbed subpaths wait for a direction")
-                .column::<SteeredOrigin>("light from infinity comes from a place beside")
-                .column::<CausticStep>("a step must be one of those that lead back");
+                .column::<SteeredOrigin>("light from infinity comes from a place beside");
         }
     }
 }
 
 /// The angle at vertex `start` of a path that stands for a pixel; the width of a pixel where the lens sees the path, if light comes
 /// from infinity there.
-fn pixel_step(scene: &Scene, vertex: impl Fn(usize) -> WholeVertex, start: usize) -> f64 {
-    let positions = |i: usize| vertex(i).surface.position.as_dvec3();
-    let edge = |i: usize| positions(i).distance(positions(i + 1));
-    let pixels = f64::from(scene.width) * f64::from(scene.height);
+fn pixel_step(path: &PathView<'_>, start: u32) -> f64 {
+    let camera = &path.scene.camera;
+    let edge = |i: u32| path.position(i).as_dvec3().distance(path.position(i + 1).as_dvec3());
+    let pixels = f64::from(path.scene.width) * f64::from(path.scene.height);
     // Of a camera of parallel rays its width.
-    let angle = libm::sqrt(1.0 / (pixels * f64::from(scene.camera.density(vertex(1).surface.direction))));
-    let seen = if scene.camera.is_directional() { 1.0 } else { edge(0) };
-    if vertex(start).kind == VERTEX_INFINITE {
+    let density = camera.density(path.vertex(1).surface.direction);
+    let angle = libm::sqrt(1.0 / (pixels * f64::from(density)));
+    let seen = if camera.is_directional() { 1.0 } else { edge(0) };
+    if path.vertex(start).kind == VERTEX_INFINITE {
         return angle * seen;
     }
     angle * seen / (1..start).map(edge).sum::<f64>()
 }
 
-/// Tilts the direction in which light leaves, or moves light from infinity, for every chain that tries it.
-pub fn propose_caustics(
-    mutation: Res<Registered<CausticPerturbation>>,
-    scene: Res<SceneRef>,
-    place: Res<TilePlace>,
-    lists: Res<MutationLists>,
-    list: Read<MutationList, ChainTable>,
-    keys: Keys,
-    edges: Read<PathEdges, ChainTable>,
-    current: Vertices<PathTable>,
-    mut ranges: Ranges,
-    mut directions: Write<Direction, ChainTable>,
-    mut origins: Write<SteeredOrigin, ChainTable>,
-    mut steps: Write<CausticStep, ChainTable>,
-) {
-    let sizes = film_sizes(&scene.0, mutation.settings.smallest, mutation.settings.covered);
-    let (list, keys, edges, current) = (list.rows(), keys.columns(), edges.rows(), current.columns());
-    let (directions, origins, steps) = (directions.rows(), origins.rows(), steps.rows());
-    for chain in lists.entries(mutation.number).map(|entry| list.at(entry) as usize) {
-        let k = edges.at(chain) as usize;
-        let vertex = |i: usize| current.at(place.path_vertex(chain, i));
-        let Some((s, kept)) = light_vertices(k, |i| vertex(i).kind == VERTEX_DISCRETE) else {
-            ranges.none(chain);
-            continue;
-        };
-        let start = k + 1 - kept;
-        let left = vertex(start);
-        let mut stream = keys.at(chain).stream(Purpose::PERTURB, 0);
-        let step = sizes
-            .scaled(pixel_step(&scene.0, vertex, start))
-            .sample(stream.next_f64());
-        let u = stream.next_f64();
-        let path = place.lights_from as usize + chain;
-        let leaving = -left.surface.direction;
-        if left.kind == VERTEX_INFINITE {
-            let beside = aside(leaving, step, u) + vertex(start - 1).surface.position.as_dvec3();
-            origins.put(chain, scene.0.lights.beyond(beside.as_vec3(), -leaving));
-            directions.put(path, leaving);
-        } else {
-            // Beyond half a turn there is no angle.
-            if !(step > 0.0 && step < std::f64::consts::PI) {
-                ranges.none(chain);
-                continue;
-            }
-            directions.put(path, tilt(leaving, step, u));
-        }
-        steps.put(chain, step);
-        let range = PathRange {
-            kept: [1, kept as u32],
-            made: [1, s as u32],
-            steered: [false, true],
-        };
-        ranges.put(&place, chain, range);
+impl CausticPerturbation {
+    /// The sizes of steps at vertex `start` of a path: angles in radians; distances in scene units of light from infinity.
+    fn sizes(&self, path: &PathView<'_>, start: u32) -> Sizes {
+        film_sizes(path.scene, self.smallest, self.covered).scaled(pixel_step(path, start))
+    }
+
+    /// The step that `key` draws there, and in which direction it is taken, as a number in [0, 1).
+    fn step(&self, path: &PathView<'_>, start: u32, key: StreamKey) -> (f64, f64) {
+        let mut stream = key.stream(Purpose::PERTURB, 0);
+        let step = self.sizes(path, start).sample(stream.next_f64());
+        (step, stream.next_f64())
     }
 }
 
-/// Follows the discrete lobes of the current path.
-pub fn steer_caustics(mutation: Res<Registered<CausticPerturbation>>, mut steering: Steering) {
-    steering.steer(mutation.number, |direction, _, _| direction);
-}
-
-/// Writes the densities.
-pub fn weigh_caustics(
-    mutation: Res<Registered<CausticPerturbation>>,
-    scene: Res<SceneRef>,
-    place: Res<TilePlace>,
-    lists: Res<MutationLists>,
-    list: Read<MutationList, ChainTable>,
-    steps: Read<CausticStep, ChainTable>,
-    current: Vertices<PathTable>,
-    proposed: Vertices<ProposedPathTable>,
-    mut weighing: Weighing,
-) {
-    let sizes = film_sizes(&scene.0, mutation.settings.smallest, mutation.settings.covered);
-    let (list, steps) = (list.rows(), steps.rows());
-    let (current, proposed) = (current.columns(), proposed.columns());
-    let chains = lists.entries(mutation.number).map(|entry| list.at(entry) as usize);
-    weighing.weigh(&place, chains, |chain, way| {
-        let vertices = if way.is_back { &proposed } else { &current };
-        let start = way.from.edges + 1 - way.kept[1];
-        let unit = pixel_step(&scene.0, |i| vertices.at(place.path_vertex(chain, i)), start as usize);
-        if sizes.scaled(unit).contains(steps.at(chain)) {
-            caustic_density(&way.to, start)
+impl MovesPaths for CausticPerturbation {
+    fn propose(&self, path: &PathView<'_>, key: StreamKey) -> Option<PathProposal> {
+        let (s, kept) = path.light_vertices()?;
+        let start = path.edges + 1 - kept;
+        let left = path.vertex(start);
+        let (step, u) = self.step(path, start, key);
+        let leaving = -left.surface.direction;
+        let light = if left.kind == VERTEX_INFINITE {
+            let beside = aside(leaving, step, u) + path.position(start - 1).as_dvec3();
+            SteeredLight {
+                direction: leaving,
+                origin: path.scene.lights.beyond(beside.as_vec3(), -leaving),
+            }
         } else {
-            0.0
-        }
-    });
-}
+            // Beyond half a turn there is no angle.
+            if !(step > 0.0 && step < std::f64::consts::PI) {
+                return None;
+            }
+            SteeredLight {
+                direction: tilt(leaving, step, u),
+                origin: left.surface.position,
+            }
+        };
+        Some(PathProposal {
+            light: Some(light),
+            ..PathProposal::new([1, kept], [1, s])
+        })
+    }
 
-/// T / r of a path whose light leaves vertex `start` in a direction drawn about another, as likely one way as the other, which
-/// stands in for the density of bidirectional path tracing, as does the certainty of discrete lobes.
-fn caustic_density(to: &PathDensities<'_>, start: u32) -> f64 {
-    let steered: f64 = (2..=start).map(|i| to.back(i)).product();
-    to.share(1) / steered
+    fn density(&self, way: &Way<'_>) -> f64 {
+        let start = way.from.edges + 1 - way.kept[1];
+        let (step, _) = self.step(way.current(), start, way.key);
+        if !self.sizes(&way.from, start).contains(step) {
+            return 0.0;
+        }
+        // The direction in which light leaves, drawn about another and as likely one way as the other, stands in for the density of
+        // bidirectional path tracing, as does the certainty of discrete lobes.
+        let steered: f64 = (2..=start).map(|i| way.to.back(i)).product();
+        way.to.share(1) / steered
+    }
 }

@@ -13,18 +13,15 @@
 //!
 //! T(x→y): one strategy; steps on the film are as likely one way as the other.
 
-use super::super::super::chains::MutationLists;
-use super::super::super::list::{PROPOSE_LENS, STEER_LENS, WEIGH_LENS};
-use super::super::super::tile::{SceneRef, TilePlace};
-use super::film_jump::{FilmJumps, check_film_sizes, film_jump_density, film_sizes};
-use super::steering::Steering;
-use super::weighing::Weighing;
-use crate::chain::{MutationList, StateClass};
+use super::film_jump::{check_film_sizes, film_jump, film_jump_density, film_sizes};
+use super::moves_paths::{MovesPaths, PathProposal, Way};
+use super::view::PathView;
+use crate::chain::StateClass;
+use crate::path::DrawList;
 use crate::path::whole::LENS_TRAIT;
-use crate::path::{ChainTable, DrawList};
-use crate::plan::{Mutation, Registered, StateSpace, SystemPlan, TablePlan};
-use crate::table::{Read, Rows};
-use bevy_ecs::system::Res;
+use crate::path_systems;
+use crate::plan::{Mutation, StateSpace, SystemPlan, TablePlan};
+use crate::sampling::StreamKey;
 use serde::{Deserialize, Serialize};
 
 /// Settings of `lens`.
@@ -67,11 +64,10 @@ impl Mutation for LensPerturbation {
     }
 
     fn systems(&self) -> Vec<SystemPlan> {
-        vec![
-            SystemPlan::new(PROPOSE_LENS, "the path is seen from a pixel nearby"),
-            SystemPlan::new(STEER_LENS, "by way of the same kinds of surfaces"),
-            SystemPlan::new(WEIGH_LENS, "each way is as likely as its strategy"),
-        ]
+        path_systems!(Self, "lens":
+            propose "the path is seen from a pixel nearby",
+            steer "by way of the same kinds of surfaces",
+            weigh "each way is as likely as its strategy")
     }
 
     fn columns(&self, tables: &mut [TablePlan]) {
@@ -81,29 +77,12 @@ impl Mutation for LensPerturbation {
     }
 }
 
-/// Moves the place on the film for every chain that tries it.
-pub fn propose_lens(mutation: Res<Registered<LensPerturbation>>, scene: Res<SceneRef>, mut jumps: FilmJumps) {
-    let settings = &mutation.settings;
-    jumps.propose(
-        mutation.number,
-        film_sizes(&scene.0, settings.smallest, settings.covered),
-    );
-}
+impl MovesPaths for LensPerturbation {
+    fn propose(&self, path: &PathView<'_>, key: StreamKey) -> Option<PathProposal> {
+        film_jump(path, film_sizes(path.scene, self.smallest, self.covered), key)
+    }
 
-/// Follows the discrete lobes of the current path; nothing else comes before the vertex that is joined.
-pub fn steer_lens(mutation: Res<Registered<LensPerturbation>>, mut steering: Steering) {
-    steering.steer(mutation.number, |direction, _, _| direction);
-}
-
-/// Writes the densities.
-pub fn weigh_lens(
-    mutation: Res<Registered<LensPerturbation>>,
-    place: Res<TilePlace>,
-    lists: Res<MutationLists>,
-    list: Read<MutationList, ChainTable>,
-    mut weighing: Weighing,
-) {
-    let list = list.rows();
-    let chains = lists.entries(mutation.number).map(|entry| list.at(entry) as usize);
-    weighing.weigh(&place, chains, |_, way| film_jump_density(way));
+    fn density(&self, way: &Way<'_>) -> f64 {
+        film_jump_density(way)
+    }
 }

@@ -11,18 +11,13 @@
 //!
 //! T(x→y): the probability of the new number of vertices, times the density of the one strategy.
 
-use super::super::super::chains::{Keys, MutationLists};
-use super::super::super::list::{PROPOSE_LENS_SUBPATHS, WEIGH_LENS_SUBPATHS};
-use super::super::super::tile::{SceneRef, TilePlace};
-use super::range::{PathRange, Ranges};
-use super::weighing::Weighing;
-use crate::chain::{MutationList, StateClass};
-use crate::path::whole::{Growth, LENS_TRAIT, PathEdges, PathTable, camera_vertices};
-use crate::path::{ChainTable, VERTEX_DISCRETE, VertexKind};
-use crate::plan::{Mutation, Registered, StateSpace, SystemPlan};
-use crate::sampling::Purpose;
-use crate::table::{Read, Rows};
-use bevy_ecs::system::Res;
+use super::moves_paths::{MovesPaths, PathProposal, Way};
+use super::view::PathView;
+use crate::chain::StateClass;
+use crate::path::whole::{Growth, LENS_TRAIT};
+use crate::path_systems;
+use crate::plan::{Mutation, StateSpace, SystemPlan};
+use crate::sampling::{Purpose, StreamKey};
 use serde::{Deserialize, Serialize};
 
 /// Settings of `lens_subpath`.
@@ -53,65 +48,30 @@ impl Mutation for LensSubpath {
     }
 
     fn systems(&self) -> Vec<SystemPlan> {
-        vec![
-            SystemPlan::new(PROPOSE_LENS_SUBPATHS, "light that was found is seen from elsewhere"),
-            SystemPlan::new(WEIGH_LENS_SUBPATHS, "each way is as likely as its strategy"),
-        ]
+        path_systems!(Self, "lens_subpath":
+            propose "light that was found is seen from elsewhere",
+            weigh "each way is as likely as its strategy")
     }
 }
 
 /// The numbers of vertices that a subpath from the camera can have which is joined to `s` of a path.
-fn growth(scene: &SceneRef, place: &TilePlace, s: u32) -> Growth {
+fn growth(path: &PathView<'_>, s: u32) -> Growth {
     Growth {
-        least: 2.max((place.shortest + 1).saturating_sub(s)),
-        most: scene.0.max_depth + 1 - s,
+        least: 2.max((path.shortest() + 1).saturating_sub(s)),
+        most: path.longest() + 1 - s,
     }
 }
 
-/// Chooses how many vertices the new start has, for every chain that tries it.
-pub fn propose_lens_subpaths(
-    mutation: Res<Registered<LensSubpath>>,
-    scene: Res<SceneRef>,
-    place: Res<TilePlace>,
-    lists: Res<MutationLists>,
-    list: Read<MutationList, ChainTable>,
-    keys: Keys,
-    edges: Read<PathEdges, ChainTable>,
-    kinds: Read<VertexKind, PathTable>,
-    mut ranges: Ranges,
-) {
-    let (list, keys, edges, kinds) = (list.rows(), keys.columns(), edges.rows(), kinds.rows());
-    for chain in lists.entries(mutation.number).map(|entry| list.at(entry) as usize) {
-        let k = edges.at(chain);
-        if k == 0 {
-            ranges.none(chain);
-            continue;
-        }
-        let is_discrete = |i| kinds.at(place.path_vertex(chain, i)) == VERTEX_DISCRETE;
-        let t = camera_vertices(k as usize, is_discrete) as u32;
-        let s = k + 1 - t;
-        let u = keys.at(chain).stream(Purpose::PERTURB, 0).next_f64();
-        let range = PathRange {
-            kept: [0, s],
-            made: [growth(&scene, &place, s).sample(t, u), s],
-            steered: [false; 2],
-        };
-        ranges.put(&place, chain, range);
+impl MovesPaths for LensSubpath {
+    fn propose(&self, path: &PathView<'_>, key: StreamKey) -> Option<PathProposal> {
+        let t = path.camera_vertices();
+        let s = path.edges + 1 - t;
+        let u = key.stream(Purpose::PERTURB, 0).next_f64();
+        Some(PathProposal::new([0, s], [growth(path, s).sample(t, u), s]))
     }
-}
 
-/// Writes the densities. A new start that scatters with a density before its last vertex is not one that could have been chosen.
-pub fn weigh_lens_subpaths(
-    mutation: Res<Registered<LensSubpath>>,
-    scene: Res<SceneRef>,
-    place: Res<TilePlace>,
-    lists: Res<MutationLists>,
-    list: Read<MutationList, ChainTable>,
-    mut weighing: Weighing,
-) {
-    let list = list.rows();
-    let chains = lists.entries(mutation.number).map(|entry| list.at(entry) as usize);
-    weighing.weigh(&place, chains, |_, way| {
+    /// A new start that scatters with a density before its last vertex is not one that could have been chosen.
+    fn density(&self, way: &Way<'_>) -> f64 {
         let s = way.kept[1];
         let vertices = |edges: u32| edges + 1 - s;
         let (from, to) = (vertices(way.from.edges), vertices(way.to.edges));
@@ -122,6 +82,6 @@ pub fn weigh_lens_subpaths(
             return 0.0;
         }
         let kept_light = if s == 1 { way.to.kept_light } else { 1.0 };
-        growth(&scene, &place, s).probability(from, to) * way.to.share(to) * kept_light
-    });
+        growth(&way.from, s).probability(from, to) * way.to.share(to) * kept_light
+    }
 }

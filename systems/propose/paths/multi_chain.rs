@@ -15,19 +15,16 @@
 //!
 //! T(x→y): one strategy; steps on the film and changes of directions are as likely one way as the other.
 
-use super::super::super::chains::MutationLists;
-use super::super::super::list::{PROPOSE_MULTI_CHAIN, STEER_MULTI_CHAIN, WEIGH_MULTI_CHAIN};
-use super::super::super::tile::{SceneRef, TilePlace};
-use super::film_jump::{FilmJumps, check_film_sizes, film_jump_density, film_sizes};
-use super::steering::Steering;
-use super::weighing::Weighing;
-use crate::chain::{MutationList, StateClass};
+use super::film_jump::{check_film_sizes, film_jump, film_jump_density, film_sizes};
+use super::moves_paths::{MovesPaths, PathProposal, Way};
+use super::view::PathView;
+use crate::chain::StateClass;
+use crate::path::DrawList;
 use crate::path::whole::{CHAIN_TRAIT, Sizes, tilt};
-use crate::path::{ChainTable, DrawList};
-use crate::plan::{Mutation, Registered, StateSpace, SystemPlan, TablePlan};
-use crate::sampling::Purpose;
-use crate::table::{Read, Rows};
-use bevy_ecs::system::Res;
+use crate::path_systems;
+use crate::plan::{Mutation, StateSpace, SystemPlan, TablePlan};
+use crate::sampling::{Purpose, StreamKey};
+use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// Settings of `multi_chain`.
@@ -89,11 +86,10 @@ impl Mutation for MultiChainPerturbation {
     }
 
     fn systems(&self) -> Vec<SystemPlan> {
-        vec![
-            SystemPlan::new(PROPOSE_MULTI_CHAIN, "the path is seen from a pixel nearby"),
-            SystemPlan::new(STEER_MULTI_CHAIN, "and goes on nearby behind every chain"),
-            SystemPlan::new(WEIGH_MULTI_CHAIN, "each way is as likely as its strategy"),
-        ]
+        path_systems!(Self, "multi_chain":
+            propose "the path is seen from a pixel nearby",
+            steer "and goes on nearby behind every chain",
+            weigh "each way is as likely as its strategy")
     }
 
     fn columns(&self, tables: &mut [TablePlan]) {
@@ -103,40 +99,21 @@ impl Mutation for MultiChainPerturbation {
     }
 }
 
-/// Moves the place on the film for every chain that tries it.
-pub fn propose_multi_chain(
-    mutation: Res<Registered<MultiChainPerturbation>>,
-    scene: Res<SceneRef>,
-    mut jumps: FilmJumps,
-) {
-    let settings = &mutation.settings;
-    jumps.propose(
-        mutation.number,
-        film_sizes(&scene.0, settings.smallest, settings.covered),
-    );
-}
+impl MovesPaths for MultiChainPerturbation {
+    fn propose(&self, path: &PathView<'_>, key: StreamKey) -> Option<PathProposal> {
+        film_jump(path, film_sizes(path.scene, self.smallest, self.covered), key)
+    }
 
-/// Follows the discrete lobes of the current path, and tilts the directions between them.
-pub fn steer_multi_chain(mutation: Res<Registered<MultiChainPerturbation>>, mut steering: Steering) {
-    let angles = Sizes {
-        smallest: f64::from(mutation.settings.smallest_angle).to_radians(),
-        largest: f64::from(mutation.settings.largest_angle).to_radians(),
-    };
-    steering.steer(mutation.number, |direction, key, depth| {
+    fn near(&self, direction: Vec3, key: StreamKey, depth: u32) -> Vec3 {
+        let angles = Sizes {
+            smallest: f64::from(self.smallest_angle).to_radians(),
+            largest: f64::from(self.largest_angle).to_radians(),
+        };
         let mut stream = key.stream(Purpose::PERTURB, depth);
         tilt(direction, angles.sample(stream.next_f64()), stream.next_f64())
-    });
-}
+    }
 
-/// Writes the densities.
-pub fn weigh_multi_chain(
-    mutation: Res<Registered<MultiChainPerturbation>>,
-    place: Res<TilePlace>,
-    lists: Res<MutationLists>,
-    list: Read<MutationList, ChainTable>,
-    mut weighing: Weighing,
-) {
-    let list = list.rows();
-    let chains = lists.entries(mutation.number).map(|entry| list.at(entry) as usize);
-    weighing.weigh(&place, chains, |_, way| film_jump_density(way));
+    fn density(&self, way: &Way<'_>) -> f64 {
+        film_jump_density(way)
+    }
 }

@@ -12,18 +12,12 @@
 //! T(x→y) does not depend on x: the probability of y's length, times the sum over its k + 1 strategies of the probability of each
 //! times its density.
 
-use super::super::super::chains::{Keys, MutationLists};
-use super::super::super::list::{PROPOSE_NEW_PATHS, WEIGH_NEW_PATHS};
-use super::super::super::tile::{SceneRef, TilePlace};
-use super::range::{PathRange, Ranges};
-use super::weighing::Weighing;
-use crate::chain::MutationList;
-use crate::path::ChainTable;
+use super::moves_paths::{MovesPaths, PathProposal, Way};
+use super::view::PathView;
 use crate::path::whole::{Lengths, StrategyChoice};
-use crate::plan::{Mutation, Registered, StateSpace, SystemPlan};
-use crate::sampling::Purpose;
-use crate::table::{Read, Rows};
-use bevy_ecs::system::Res;
+use crate::path_systems;
+use crate::plan::{Mutation, StateSpace, SystemPlan};
+use crate::sampling::{Purpose, StreamKey};
 use serde::{Deserialize, Serialize};
 
 /// Settings of `new_path`.
@@ -45,11 +39,11 @@ impl Default for NewPath {
 }
 
 impl NewPath {
-    /// The lengths of its paths, of at least `shortest` and at most `longest` edges.
-    fn lengths(&self, shortest: u32, longest: u32) -> Lengths {
+    /// The lengths of its paths.
+    fn lengths(&self, path: &PathView<'_>) -> Lengths {
         Lengths {
-            shortest,
-            longest,
+            shortest: path.shortest(),
+            longest: path.longest(),
             exponent: f64::from(self.exponent),
         }
     }
@@ -74,57 +68,24 @@ impl Mutation for NewPath {
     }
 
     fn systems(&self) -> Vec<SystemPlan> {
-        vec![
-            SystemPlan::new(PROPOSE_NEW_PATHS, "bootstraps and new paths start at both ends"),
-            SystemPlan::new(WEIGH_NEW_PATHS, "any strategy could have found them"),
-        ]
+        path_systems!(Self, "new_path":
+            propose "bootstraps and new paths start at both ends",
+            weigh "any strategy could have found them")
     }
 }
 
-/// Chooses a length and a strategy for every chain that tries a new path.
-pub fn propose_new_paths(
-    mutation: Res<Registered<NewPath>>,
-    scene: Res<SceneRef>,
-    place: Res<TilePlace>,
-    lists: Res<MutationLists>,
-    list: Read<MutationList, ChainTable>,
-    keys: Keys,
-    mut ranges: Ranges,
-) {
-    let lengths = mutation.settings.lengths(place.shortest, scene.0.max_depth);
-    let (list, keys) = (list.rows(), keys.columns());
-    for chain in lists.entries(mutation.number).map(|entry| list.at(entry) as usize) {
-        let mut stream = keys.at(chain).stream(Purpose::PERTURB, 0);
-        let k = lengths.sample(stream.next_f64());
+impl MovesPaths for NewPath {
+    fn propose(&self, path: &PathView<'_>, key: StreamKey) -> Option<PathProposal> {
+        let mut stream = key.stream(Purpose::PERTURB, 0);
+        let k = self.lengths(path).sample(stream.next_f64());
         let t = StrategyChoice { length: k }.sample(stream.next_f64());
-        ranges.put(
-            &place,
-            chain,
-            PathRange {
-                kept: [0, 0],
-                made: [t, k + 1 - t],
-                steered: [false; 2],
-            },
-        );
+        Some(PathProposal::new([0, 0], [t, k + 1 - t]))
     }
-}
 
-/// Writes the densities of new paths.
-pub fn weigh_new_paths(
-    mutation: Res<Registered<NewPath>>,
-    scene: Res<SceneRef>,
-    place: Res<TilePlace>,
-    lists: Res<MutationLists>,
-    list: Read<MutationList, ChainTable>,
-    mut weighing: Weighing,
-) {
-    let lengths = mutation.settings.lengths(place.shortest, scene.0.max_depth);
-    let list = list.rows();
-    let chains = lists.entries(mutation.number).map(|entry| list.at(entry) as usize);
-    weighing.weigh(&place, chains, |_, way| {
+    fn density(&self, way: &Way<'_>) -> f64 {
         let k = way.to.edges;
         let strategy = StrategyChoice { length: k };
         let drawn = (1..=k + 1).map(|t| strategy.probability(t) * way.to.share(t));
-        lengths.probability(k) * drawn.sum::<f64>()
-    });
+        self.lengths(&way.to).probability(k) * drawn.sum::<f64>()
+    }
 }

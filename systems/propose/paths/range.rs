@@ -1,28 +1,17 @@
-//! What a mutation of whole paths says of its proposal: which ends of the current path it keeps, and how many vertices the two
-//! subpaths are to have.
+//! Where systems write what a proposal keeps of a path, and how its subpaths begin.
 
-use super::super::super::tile::Queues;
-use crate::path::ChainTable;
-use crate::path::whole::{CameraVertices, KeptFromCamera, KeptFromLight, LightVertices, STEERED, StopDepth};
+use super::super::super::tile::{Queues, TilePlace};
+use super::moves_paths::PathProposal;
+use super::view::PathView;
+use crate::path::whole::{
+    CameraVertices, KeptFromCamera, KeptFromLight, LightVertices, ProposedPathFilm, STEERED, SteeredOrigin, StopDepth,
+};
+use crate::path::{ChainTable, Direction};
+use crate::scene::Scene;
 use crate::table::{Rows, Write};
 use bevy_ecs::system::{ResMut, SystemParam};
 
-use super::super::super::tile::TilePlace;
-
-/// The ends of a path x₀ … xₖ that a proposal keeps, and the subpaths that it is made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PathRange {
-    /// t₀ and s₀: vertices that are kept from the camera, and from the light.
-    pub kept: [u32; 2],
-    /// t and s: vertices of the subpaths, at least as many as are kept. Where s is 1 and nothing is kept from the light, the light
-    /// is chosen as seen from the last vertex of the camera subpath; where it is 0, the camera subpath is to meet one.
-    pub made: [u32; 2],
-    /// Whether the mutation says in which directions the subpath from the camera goes, or that from the light; else materials draw
-    /// them.
-    pub steered: [bool; 2],
-}
-
-/// The columns of ranges.
+/// The columns that say what proposals keep.
 #[derive(SystemParam)]
 pub struct Ranges<'w, 's> {
     queues: ResMut<'w, Queues>,
@@ -31,29 +20,80 @@ pub struct Ranges<'w, 's> {
     camera_made: Write<'w, 's, CameraVertices, ChainTable>,
     light_made: Write<'w, 's, LightVertices, ChainTable>,
     stops: Write<'w, 's, StopDepth, ChainTable>,
+    directions: Write<'w, 's, Direction, ChainTable>,
+    film: Write<'w, 's, ProposedPathFilm, ChainTable>,
+    origins: Write<'w, 's, SteeredOrigin, ChainTable>,
+}
+
+/// [`Ranges`] as slices.
+pub struct RangeColumns<'a> {
+    queues: &'a mut Queues,
+    camera_kept: &'a mut [KeptFromCamera],
+    light_kept: &'a mut [KeptFromLight],
+    camera_made: &'a mut [CameraVertices],
+    light_made: &'a mut [LightVertices],
+    stops: &'a mut [StopDepth],
+    directions: &'a mut [Direction],
+    film: &'a mut [ProposedPathFilm],
+    origins: &'a mut [SteeredOrigin],
 }
 
 impl Ranges<'_, '_> {
-    /// Writes the range of a chain's proposal.
-    pub fn put(&mut self, place: &TilePlace, chain: usize, range: PathRange) {
-        let [camera, light] = range.made;
-        self.camera_kept.rows().put(chain, range.kept[0]);
-        self.light_kept.rows().put(chain, range.kept[1]);
-        self.camera_made.rows().put(chain, camera);
-        self.light_made.rows().put(chain, light);
-        let stops = self.stops.rows();
-        for (path, made, steered) in [
-            (chain, camera, range.steered[0]),
-            (place.lights_from as usize + chain, light, range.steered[1]),
-        ] {
-            let depth = made.saturating_sub(1);
-            self.queues.deepest = self.queues.deepest.max(depth);
-            stops.put(path, if steered { depth | STEERED } else { depth });
+    /// The columns as slices.
+    pub fn columns(&mut self) -> RangeColumns<'_> {
+        RangeColumns {
+            queues: &mut self.queues,
+            camera_kept: self.camera_kept.rows(),
+            light_kept: self.light_kept.rows(),
+            camera_made: self.camera_made.rows(),
+            light_made: self.light_made.rows(),
+            stops: self.stops.rows(),
+            directions: self.directions.rows(),
+            film: self.film.rows(),
+            origins: self.origins.rows(),
         }
     }
+}
 
-    /// Says that the mutation proposes nothing for a chain: its state is none that it can start from.
-    pub fn none(&mut self, chain: usize) {
-        self.camera_made.rows().put(chain, 0);
+impl RangeColumns<'_> {
+    /// Writes a chain's proposal, and the path that it is made of; `None` where its mutation proposes nothing.
+    pub fn put(
+        &mut self,
+        scene: &Scene,
+        place: &TilePlace,
+        chain: usize,
+        proposal: Option<(PathProposal, PathView<'_>)>,
+    ) {
+        let Some((proposal, path)) = proposal else {
+            self.camera_made.put(chain, 0);
+            return;
+        };
+        let light_path = place.lights_from as usize + chain;
+        let PathProposal {
+            kept,
+            made,
+            film,
+            light,
+        } = proposal;
+        self.camera_kept.put(chain, kept[0]);
+        self.light_kept.put(chain, kept[1]);
+        self.camera_made.put(chain, made[0]);
+        self.light_made.put(chain, made[1]);
+        for (path, made, steered) in [(chain, made[0], film.is_some()), (light_path, made[1], light.is_some())] {
+            let depth = made.saturating_sub(1);
+            self.queues.deepest = self.queues.deepest.max(depth);
+            self.stops.put(path, if steered { depth | STEERED } else { depth });
+        }
+        if let Some(film) = film {
+            self.film.put(chain, film);
+            let ray = scene.camera.ray_from(path.position(0), film);
+            self.directions.put(chain, ray.direction);
+        }
+        if let Some(light) = light {
+            self.directions.put(light_path, light.direction);
+            if !self.origins.is_empty() {
+                self.origins.put(chain, light.origin);
+            }
+        }
     }
 }

@@ -4,16 +4,15 @@
 use super::super::super::chains::Keys;
 use super::super::super::paths::{Vertices, VerticesMut};
 use super::super::super::tile::{Queues, SceneRef, TilePlace};
+use super::moves_paths::MovesPaths;
 use crate::chain::ChosenMutation;
 use crate::material::Transport;
 use crate::path::whole::{PathEdges, PathTable};
 use crate::path::{
     ChainTable, Direction, DrawList, PathLength, ProposalTable, ScatteredList, Scatterer, VERTEX_DISCRETE,
 };
-use crate::sampling::StreamKey;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut, SystemParam};
-use glam::Vec3;
 
 /// Subpaths that wait to be steered, and what that takes.
 #[derive(SystemParam)]
@@ -33,10 +32,9 @@ pub struct Steering<'w, 's> {
 }
 
 impl Steering<'_, '_> {
-    /// Steers every listed subpath whose chain tries mutation number `number`. At a vertex where the current path is scattered into
-    /// a discrete lobe, the subpath is too, or ends; elsewhere `near` draws a direction, given the one in which the current path
-    /// goes on, the key of the chain's draws, and the depth that tells vertices apart in them.
-    pub fn steer(&mut self, number: usize, near: impl Fn(Vec3, StreamKey, u32) -> Vec3) {
+    /// Steers every listed subpath whose chain tries `mutation`, number `number`. At a vertex where the current path is scattered into
+    /// a discrete lobe, the subpath is too, or ends; elsewhere it goes [near](MovesPaths::near) to where the current path does.
+    pub fn steer(&mut self, number: usize, mutation: &dyn MovesPaths) {
         let (scene, place) = (&*self.scene.0, &*self.place);
         let (list, chosen, lengths, edges) = (
             self.list.rows(),
@@ -81,7 +79,7 @@ impl Steering<'_, '_> {
                     continue;
                 }
                 let outgoing = if from_light { -old.surface.direction } else { onward };
-                near(outgoing, keys.at(chain), place.stream_depth(path, depth))
+                mutation.near(outgoing, keys.at(chain), place.stream_depth(path, depth))
             };
             directions.put(path, direction);
             scattered.put(self.queues.scattered, path as u32);
