@@ -10,6 +10,7 @@ use bevy_ecs::system::SystemParam;
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::propose::MovesPaths;
 use super::tile::TilePlace;
 
 /// The mutations of the plan, shared by all tiles.
@@ -20,6 +21,7 @@ pub struct Mutations {
     independent: usize,
     selective: bool,
     depth_first: Arc<[Option<Box<dyn MovesVertices>>]>,
+    moves_paths: Arc<[Option<Box<dyn MovesPaths>>]>,
 }
 
 impl Mutations {
@@ -39,6 +41,7 @@ impl Mutations {
             independent: list.iter().position(|m| m.is_independent()).unwrap_or(0),
             selective: list.iter().any(|m| m.is_selective() && m.weight() > 0.0),
             depth_first: list.iter().map(|m| m.depth_first()).collect(),
+            moves_paths: list.iter().map(|m| m.moves_paths()).collect(),
             list,
         }
     }
@@ -66,6 +69,13 @@ impl Mutations {
     #[must_use]
     pub fn depth_first(&self, number: usize) -> Option<&dyn MovesVertices> {
         self.depth_first.get(number)?.as_deref()
+    }
+
+    /// How mutation number `number` moves whole paths, if it does.
+    #[inline]
+    #[must_use]
+    pub fn moves_paths(&self, number: usize) -> Option<&dyn MovesPaths> {
+        self.moves_paths.get(number)?.as_deref()
     }
 
     /// The number of the independent mutation, which bootstraps draw with.

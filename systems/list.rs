@@ -113,6 +113,8 @@ list! {
 
     /// Runs one step of one chain after another, its path traced whole.
     MUTATE_DEPTH_FIRST = TRACE, trace::mutate_depth_first, in_phases(Phases::STEP), tracing(Traces::Both);
+    /// Makes the proposals of whole paths, one chain after another.
+    PROPOSE_PATHS_DEPTH_FIRST = TRACE, trace::propose_paths_depth_first, in_phases(Phases::STEP), tracing(Traces::Both);
 
     /// Sums a path's light from its vertices.
     GATHER_CONTRIBUTION = EVALUATE, evaluate::gather_contribution;

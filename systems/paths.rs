@@ -150,33 +150,28 @@ impl<T: Table> VerticesMut<'_, '_, T> {
 }
 
 impl VertexColumnsMut<'_> {
+    /// The columns to read.
+    #[inline]
+    #[must_use]
+    pub const fn shared(&self) -> VertexColumns<'_> {
+        VertexColumns {
+            kinds: self.kinds,
+            positions: self.positions,
+            normals: self.normals,
+            offsets: self.offsets,
+            shading_normals: self.shading_normals,
+            materials: self.materials,
+            arrivals: self.arrivals,
+            textures: self.textures,
+            tangents: self.tangents,
+        }
+    }
+
     /// The vertex of this number, see [`VertexColumns::at`].
     #[inline]
     #[must_use]
     pub fn at(&self, vertex: usize) -> WholeVertex {
-        let Self {
-            kinds,
-            positions,
-            normals,
-            offsets,
-            shading_normals,
-            materials,
-            arrivals,
-            textures,
-            tangents,
-        } = self;
-        let columns = VertexColumns {
-            kinds,
-            positions,
-            normals,
-            offsets,
-            shading_normals,
-            materials,
-            arrivals,
-            textures,
-            tangents,
-        };
-        columns.at(vertex)
+        self.shared().at(vertex)
     }
 
     /// Writes the kind of the vertex of this number.

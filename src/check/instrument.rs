@@ -2,6 +2,7 @@
 
 use crate::chain::{StateClass, SupportDensity};
 use crate::plan::{AnyMutation, EffectPlan, MovesVertices, Region, StateSpace, Support, SystemPlan, TablePlan};
+use crate::systems::propose::MovesPaths;
 use bevy_ecs::world::World;
 use std::sync::Arc;
 
@@ -68,6 +69,10 @@ impl AnyMutation for Instrumented {
     }
     fn depth_first(&self) -> Option<Box<dyn MovesVertices>> {
         // It would leave out the systems that were added.
+        None
+    }
+    fn moves_paths(&self) -> Option<Box<dyn MovesPaths>> {
+        // As before.
         None
     }
     fn support(&self) -> Option<Support> {

@@ -20,7 +20,7 @@ pub fn refuse(args: &SceneArgs, technique: Technique, scene: &Scene, mutations: 
         && !has_base
     {
         let own = match technique {
-            Technique::Mlt => "those of mlt walk paths",
+            Technique::Mlt | Technique::MltReference => "those of mlt walk paths",
             _ => "it has none",
         };
         return Err(miette!(
@@ -37,7 +37,7 @@ pub fn refuse(args: &SceneArgs, technique: Technique, scene: &Scene, mutations: 
             let own = match technique {
                 Technique::Lt => "joins paths to the lens alone (t = 1)",
                 Technique::Pssmlt | Technique::PssmltReference => "runs over pt here, which joins no subpaths",
-                Technique::Mlt => "has chains that need all of them",
+                Technique::Mlt | Technique::MltReference => "has chains that need all of them",
                 _ => "joins no subpaths",
             };
             let instead = if technique == Technique::Pssmlt {
@@ -74,7 +74,7 @@ pub fn refuse(args: &SceneArgs, technique: Technique, scene: &Scene, mutations: 
 
 /// Refuses to render direct light apart where nothing else would be left, or where chains do not tell it from other light.
 fn refuse_direct(direct: Direct, technique: Technique, max_depth: u32) -> Result<()> {
-    if technique != Technique::Mlt {
+    if technique.space() != Some(StateSpace::PATH) {
         let own = if technique.has_chains() {
             "a state of its chains may bring light of paths of any length"
         } else {
@@ -103,7 +103,7 @@ fn refuse_heuristic(
     strategies: &StrategyArgs,
 ) -> Result<()> {
     let direct = Direct::in_scene(strategies.direct, scene);
-    if technique == Technique::Mlt && direct == Direct::Chains {
+    if technique.space() == Some(StateSpace::PATH) && direct == Direct::Chains {
         return Err(miette!(
             help = "leave --heuristic out; pt, bdpt and pssmlt weigh their ways to find a path by it, and mlt those of direct \
                     light that is rendered apart",

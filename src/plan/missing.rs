@@ -87,9 +87,8 @@ pub(super) fn missing(scene: &Scene, technique: Technique, base: Base) -> Vec<Mi
     }
     match (technique, base) {
         (Technique::Lt, _) => missed_by_lights_alone(scene),
-        (Technique::Bdpt | Technique::Mlt, _) | (Technique::Pssmlt | Technique::PssmltReference, Base::Bdpt) => {
-            missed_by_both(scene)
-        }
+        (Technique::Bdpt | Technique::Mlt | Technique::MltReference, _)
+        | (Technique::Pssmlt | Technique::PssmltReference, Base::Bdpt) => missed_by_both(scene),
         (Technique::Pt | Technique::PtReference | Technique::Pssmlt | Technique::PssmltReference, _) => {
             missed_by_camera_alone(scene)
         }
@@ -395,7 +394,8 @@ mod tests {
                         missed.is_likely() && missed.what.contains("(lights[0] ("),
                         "{case}: {missed}"
                     );
-                    let with_both = matches!(technique, Technique::Bdpt | Technique::Mlt) || base == Base::Bdpt;
+                    let with_both = matches!(technique, Technique::Bdpt | Technique::Mlt | Technique::MltReference)
+                        || base == Base::Bdpt;
                     let (share, found_by) = if with_both {
                         (Some(0.25), NOBODY)
                     } else {

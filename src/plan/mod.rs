@@ -9,6 +9,7 @@ mod direct;
 mod effect;
 mod missing;
 mod mlt;
+mod mlt_reference;
 mod mutation;
 mod path_tracing;
 mod pssmlt;
@@ -192,12 +193,16 @@ impl Plan {
                 chains = Some(ChainPlan { counts, mutations });
                 tile
             }
-            Technique::Mlt => {
+            Technique::Mlt | Technique::MltReference => {
                 let mutations = choose_mutations(&options.mutations, StateSpace::PATH, &effects)?;
                 let counts = options.chains.counts(scene.pixel_count());
                 strategies = Some(Strategies::default());
                 let states = mlt::states(scene, &effects);
-                let mut tile = chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size);
+                let mut tile = if technique == Technique::Mlt {
+                    chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size)
+                } else {
+                    mlt_reference::tile(states, &mutations, counts, &effects, options.tile_size)?
+                };
                 let by = Direct::in_scene(options.direct, scene);
                 tile.shortest = by.shortest_of_chains();
                 if let Direct::Apart(samples) = by {

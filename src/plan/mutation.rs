@@ -8,6 +8,7 @@ use crate::chain::StateClass;
 use crate::path::{FilmCoordinates, VertexCoordinates};
 use crate::sampling::StreamKey;
 use crate::scene::nearest_name;
+use crate::systems::propose::MovesPaths;
 use bevy_ecs::resource::Resource;
 use bevy_ecs::world::World;
 use serde::Serialize;
@@ -77,6 +78,11 @@ pub trait Mutation: Clone + Default + fmt::Debug + Serialize + DeserializeOwned 
         None
     }
 
+    /// How it moves whole paths, if it does so path by path: techniques that run chains depth first ask for it.
+    fn moves_paths(&self) -> Option<Box<dyn MovesPaths>> {
+        None
+    }
+
     /// Where its proposals can be: what [`check`](crate::check) tests its density against. Without it, the density goes
     /// untested, and reports say so.
     fn support(&self) -> Option<Support> {
@@ -141,6 +147,8 @@ pub trait AnyMutation: fmt::Debug + Send + Sync {
     fn columns(&self, tables: &mut [TablePlan]);
     /// [`Mutation::depth_first`].
     fn depth_first(&self) -> Option<Box<dyn MovesVertices>>;
+    /// [`Mutation::moves_paths`].
+    fn moves_paths(&self) -> Option<Box<dyn MovesPaths>>;
     /// [`Mutation::support`].
     fn support(&self) -> Option<Support>;
     /// Its settings, as JSON.
@@ -187,6 +195,9 @@ impl<M: Mutation> AnyMutation for M {
     }
     fn depth_first(&self) -> Option<Box<dyn MovesVertices>> {
         Mutation::depth_first(self)
+    }
+    fn moves_paths(&self) -> Option<Box<dyn MovesPaths>> {
+        Mutation::moves_paths(self)
     }
     fn support(&self) -> Option<Support> {
         Mutation::support(self)

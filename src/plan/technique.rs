@@ -40,6 +40,8 @@ pub enum Technique {
     ///
     /// It finds what `bdpt` finds, and misses what that misses.
     Mlt,
+    /// The same chains, whose proposals are made depth first, one after another: the oracle of the staged ones, and their baseline.
+    MltReference,
 }
 
 /// What primary-sample-space chains run over: which light a list of numbers stands for.
@@ -102,7 +104,7 @@ fn hint(nearest: &Option<&'static str>) -> String {
 
 impl Technique {
     /// Every technique.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Pt,
         Self::PtReference,
         Self::Lt,
@@ -110,6 +112,7 @@ impl Technique {
         Self::Pssmlt,
         Self::PssmltReference,
         Self::Mlt,
+        Self::MltReference,
     ];
 
     /// Those whose samples are independent, and each of one pixel.
@@ -121,7 +124,7 @@ impl Technique {
         match self {
             Self::Pt | Self::PtReference | Self::Lt | Self::Bdpt => None,
             Self::Pssmlt | Self::PssmltReference => Some(StateSpace::PRIMARY),
-            Self::Mlt => Some(StateSpace::PATH),
+            Self::Mlt | Self::MltReference => Some(StateSpace::PATH),
         }
     }
 
@@ -142,6 +145,7 @@ impl Technique {
             Self::Pssmlt => "pssmlt",
             Self::PssmltReference => "pssmlt-reference",
             Self::Mlt => "mlt",
+            Self::MltReference => "mlt-reference",
         }
     }
 }

@@ -137,7 +137,10 @@ pub fn replay(
     progress: &(dyn Fn(Part, f64) + Sync),
 ) -> Result<Replay, ReplayError> {
     let Moment { seed, chain, step } = moment;
-    if matches!(plan.technique, Technique::PtReference | Technique::PssmltReference) {
+    if matches!(
+        plan.technique,
+        Technique::PtReference | Technique::PssmltReference | Technique::MltReference
+    ) {
         return Err(ReplayError::NoTables);
     }
     if step > LAST_STEP {

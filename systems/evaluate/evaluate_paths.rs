@@ -1,23 +1,20 @@
 //! Whole paths: what they bring, and the densities of all strategies.
 
 use super::super::chains::Keys;
-use super::super::paths::{VertexColumns, Vertices, VerticesMut};
+use super::super::paths::{VertexColumns, VertexColumnsMut, Vertices, VerticesMut};
+use super::super::propose::paths::view::{PathEnds, PathRows};
 use super::super::tile::{FilmBlocks, Queues, SceneRef, TilePlace};
-use super::super::trace::join::joining;
 use super::normalized;
 use crate::chain::{ProposedClass, ProposedTarget};
 use crate::color::Rgb;
-use crate::geometry::{NOT_EMITTING, SegmentTransmittance};
+use crate::geometry::SegmentTransmittance;
 use crate::path::whole::*;
 use crate::path::*;
-use crate::sampling::{Purpose, StreamKey};
+use crate::sampling::StreamKey;
 use crate::scene::Scene;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Local, Res, SystemParam};
 use glam::Vec2;
-
-/// Chooses among lights at infinity that a path meets all at once.
-const AMONG_INFINITE: Purpose = Purpose::named("light met at infinity");
 
 /// What proposals were made of.
 #[derive(SystemParam)]
@@ -52,6 +49,131 @@ pub struct Found<'w, 's> {
     backs: Write<'w, 's, PathBack, ProposedPathTable>,
 }
 
+/// [`Found`] as slices.
+pub struct FoundColumns<'a> {
+    targets: &'a mut [ProposedTarget],
+    classes: &'a mut [ProposedClass],
+    counts: &'a mut [ProposedSplatCount],
+    splat_pixels: &'a mut [SplatPixel],
+    splat_colors: &'a mut [SplatColor],
+    lights: &'a mut [ProposedLight],
+    pixels: &'a mut [FilmPixel],
+    film: &'a mut [ProposedPathFilm],
+    filters: &'a mut [ProposedFilter],
+    kept_lights: &'a mut [ProposedKeptLight],
+    vertices: VertexColumnsMut<'a>,
+    shares: &'a mut [PathShare],
+    onwards: &'a mut [PathOnward],
+    backs: &'a mut [PathBack],
+}
+
+impl Found<'_, '_> {
+    /// The columns as slices.
+    pub fn columns(&mut self) -> FoundColumns<'_> {
+        FoundColumns {
+            targets: self.targets.rows(),
+            classes: self.classes.rows(),
+            counts: self.counts.rows(),
+            splat_pixels: self.splat_pixels.rows(),
+            splat_colors: self.splat_colors.rows(),
+            lights: self.lights.rows(),
+            pixels: self.pixels.rows(),
+            film: self.film.rows(),
+            filters: self.filters.rows(),
+            kept_lights: self.kept_lights.rows(),
+            vertices: self.vertices.columns(),
+            shares: self.shares.rows(),
+            onwards: self.onwards.rows(),
+            backs: self.backs.rows(),
+        }
+    }
+}
+
+/// A proposal's whole path.
+pub struct FoundPath<'a> {
+    /// f / r, and what passes the edge that joins the subpaths.
+    pub value: Rgb,
+    /// x₀ … xₖ.
+    pub vertices: &'a [WholeVertex],
+    /// Its densities.
+    pub measured: &'a Measured,
+    /// The light that it ends on.
+    pub light: u32,
+    /// Where it is seen.
+    pub seen: Seen,
+}
+
+impl FoundColumns<'_> {
+    /// Writes that a chain has no proposal, until it has one.
+    pub fn nothing(&mut self, chain: usize) {
+        self.targets.put(chain, 0.0);
+        self.counts.put(chain, 0);
+    }
+
+    /// Writes a chain's proposal; whether it can be taken.
+    pub fn put(&mut self, place: &TilePlace, blocks: &FilmBlocks, chain: usize, path: &FoundPath<'_>) -> bool {
+        let FoundPath {
+            value,
+            vertices,
+            measured,
+            light,
+            seen,
+        } = *path;
+        let target = target_of(value);
+        self.targets.put(chain, target);
+        let block = blocks.0.block_of(seen.pixel).unwrap_or(0) as u32;
+        let form = PathForm { vertices };
+        self.classes.put(chain, form.class().in_block(block).0);
+        if !(target > 0.0 && target.is_finite()) {
+            return false;
+        }
+        self.counts.put(chain, 1);
+        self.splat_pixels.put(chain, seen.pixel);
+        self.splat_colors.put(chain, normalized(value, target));
+        self.lights.put(chain, light);
+        self.pixels.put(chain, seen.pixel);
+        self.film.put(chain, seen.film);
+        self.filters.put(chain, seen.filter);
+        self.kept_lights.put(chain, measured.kept_light);
+        for (depth, vertex) in vertices.iter().enumerate() {
+            let row = place.path_vertex(chain, depth);
+            self.vertices.put(row, vertex);
+            self.shares.put(row, measured.share(depth + 1));
+            self.onwards.put(row, measured.passages[depth].onward);
+            self.backs.put(row, measured.passages[depth].back);
+        }
+        true
+    }
+
+    /// The pixel and the place on the film that a chain's camera subpath was started through.
+    #[must_use]
+    pub fn started(&self, chain: usize) -> (u32, Vec2) {
+        (self.pixels.at(chain), self.film.at(chain))
+    }
+
+    /// The rows of the paths that were written.
+    #[must_use]
+    pub fn rows(&self) -> PathRows<'_> {
+        PathRows {
+            vertices: self.vertices.shared(),
+            shares: self.shares,
+            onwards: self.onwards,
+            backs: self.backs,
+        }
+    }
+
+    /// Of a chain's proposal, what is known of it as a whole.
+    #[must_use]
+    pub fn ends(&self, chain: usize, edges: u32) -> PathEnds {
+        PathEnds {
+            edges,
+            film: self.film.at(chain),
+            filter: self.filters.at(chain),
+            kept_light: self.kept_lights.at(chain),
+        }
+    }
+}
+
 /// Room to put a path together in.
 #[derive(Default)]
 pub struct Work {
@@ -79,16 +201,10 @@ pub fn evaluate_paths(
         subpaths.vertices.columns(),
     );
     let (segment_chains, transmittances) = (subpaths.segment_chains.rows(), subpaths.transmittances.rows());
-    let (targets, classes, counts) = (found.targets.rows(), found.classes.rows(), found.counts.rows());
-    let (splat_pixels, splat_colors) = (found.splat_pixels.rows(), found.splat_colors.rows());
-    let (proposed_lights, pixels, film) = (found.lights.rows(), found.pixels.rows(), found.film.rows());
-    let (filters, kept_lights) = (found.filters.rows(), found.kept_lights.rows());
-    let mut proposed = found.vertices.columns();
-    let (shares, onwards, backs) = (found.shares.rows(), found.onwards.rows(), found.backs.rows());
+    let mut found = found.columns();
     let mut segment = 0;
     for chain in 0..place.chains as usize {
-        targets.put(chain, 0.0);
-        counts.put(chain, 0);
+        found.nothing(chain);
         let k = edges.at(chain) as usize;
         if k == 0 {
             continue;
@@ -119,42 +235,19 @@ pub fn evaluate_paths(
         let Some(value) = path.measure(measured) else {
             continue;
         };
-        let Some(seen) = joint.seen(key, camera_kept.at(chain), (pixels.at(chain), film.at(chain))) else {
+        let Some(seen) = joint.seen(key, camera_kept.at(chain), found.started(chain)) else {
             continue;
         };
-        let value = value * passing;
-        let target = target_of(value);
-        targets.put(chain, target);
-        let block = blocks.0.block_of(seen.pixel).unwrap_or(0) as u32;
-        let form = PathForm { vertices };
-        classes.put(chain, form.class().in_block(block).0);
-        if !(target > 0.0 && target.is_finite()) {
-            continue;
-        }
-        counts.put(chain, 1);
-        splat_pixels.put(chain, seen.pixel);
-        splat_colors.put(chain, normalized(value, target));
-        proposed_lights.put(chain, light);
-        pixels.put(chain, seen.pixel);
-        film.put(chain, seen.film);
-        filters.put(chain, seen.filter);
-        kept_lights.put(chain, measured.kept_light);
-        for (depth, vertex) in vertices.iter().enumerate() {
-            let row = place.path_vertex(chain, depth);
-            proposed.put(row, vertex);
-            shares.put(row, measured.share(depth + 1));
-            onwards.put(row, measured.passages[depth].onward);
-            backs.put(row, measured.passages[depth].back);
-        }
+        let path = FoundPath {
+            value: value * passing,
+            vertices,
+            measured,
+            light,
+            seen,
+        };
+        found.put(&place, &blocks, chain, &path);
     }
     debug_assert_eq!(segment, queues.segments);
-}
-
-/// Where on the film a path is seen.
-struct Seen {
-    pixel: u32,
-    film: Vec2,
-    filter: f32,
 }
 
 /// The subpaths of a chain's proposal, and where they are joined.
@@ -174,48 +267,24 @@ impl Joint<'_> {
         let ([t, s], light_path) = (self.made, self.place.lights_from as usize + self.chain);
         path.clear();
         path.extend((0..t).map(|depth| self.vertices.at(self.place.vertex(self.chain, depth))));
-        let last = t as usize - 1;
-        if s == 0 {
-            if path[last].kind == VERTEX_INFINITE {
-                let lights = &self.scene.lights;
-                let u = key.stream(AMONG_INFINITE, 0).next_f64();
-                let count = lights.infinite().count();
-                return lights.infinite().nth((u * count as f64) as usize);
-            }
-            let light = self.lights.at(self.place.vertex(self.chain, t - 1));
-            path[last].kind = VERTEX_LIGHT;
-            return (light != NOT_EMITTING).then_some(light);
-        }
-        let y = self.vertices.at(self.place.vertex(light_path, s - 1));
-        let mut direction = joining(self.scene, &path[last], &y)?;
-        for depth in (0..s).rev() {
-            let mut vertex = self.vertices.at(self.place.vertex(light_path, depth));
-            // What led from the light to this vertex leads from it to the light.
-            let onward = -vertex.surface.direction;
-            vertex.surface.direction = direction;
-            direction = onward;
-            path.push(vertex);
-        }
-        Some(self.lights.at(light_path))
+        let light = if s == 0 {
+            self.lights.at(self.place.vertex(self.chain, t - 1))
+        } else {
+            self.lights.at(light_path)
+        };
+        let from_light = (0..s).rev();
+        let from_light = from_light.map(|depth| self.vertices.at(self.place.vertex(light_path, depth)));
+        complete(self.scene, key, path, from_light, light)
     }
 
-    /// The pixel that the path counts for: the one that it was started through, or one of those whose filters reach the place
-    /// where it is seen. `started` is that pixel, and its place.
+    /// The pixel that the path counts for: the one that it was started through, `started` with its place, or one of those whose
+    /// filters reach the place where it is seen.
     fn seen(&self, key: StreamKey, kept: u32, (pixel, film): (u32, Vec2)) -> Option<Seen> {
-        let film = if self.made[0] == 1 {
+        if self.made[0] == 1 {
             let light_path = self.place.lights_from as usize + self.chain;
-            let y = self.vertices.at(self.place.vertex(light_path, self.made[1] - 1));
-            let lens = self.vertices.at(self.chain).surface.position;
-            self.scene.camera.project(lens, y.surface.position)?.film
-        } else {
-            film
-        };
-        let (chosen, filter) = pixel_of(self.scene, film, KeyedDraws(key).splat(0))?;
-        let was_started = self.made[0] > 1 && kept != 1;
-        Some(Seen {
-            pixel: if was_started { pixel } else { chosen },
-            film,
-            filter,
-        })
+            let y = self.vertices.position(self.place.vertex(light_path, self.made[1] - 1));
+            return Seen::by_lens(self.scene, key, self.vertices.position(self.chain), y);
+        }
+        Seen::through(self.scene, key, film, (kept != 1).then_some(pixel))
     }
 }

@@ -8,7 +8,7 @@ mod tally_independent;
 mod weigh_choices;
 
 pub use evaluate_lists::evaluate_lists;
-pub use evaluate_paths::evaluate_paths;
+pub use evaluate_paths::{Found, FoundColumns, FoundPath, evaluate_paths};
 pub use evaluate_targets::evaluate_targets;
 pub(super) use evaluate_targets::normalized;
 pub(super) use gather_contribution::Brightest;

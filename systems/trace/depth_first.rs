@@ -35,7 +35,7 @@ pub struct OneRay<'w, 's> {
 pub(in super::super) struct Tracer<'a> {
     scene: &'a Scene,
     heuristic: Heuristic,
-    counters: &'a mut Counters,
+    pub(super) counters: &'a mut Counters,
     origin: &'a mut [RayOrigin],
     direction: &'a mut [RayDirection],
     distance: &'a mut [HitDistance],
@@ -193,7 +193,7 @@ impl<'a> Tracer<'a> {
         emitted * self.heuristic.share(density, sampled)
     }
 
-    fn closest(&mut self, origin: Vec3, direction: Vec3) -> Option<(Hit, SurfacePoint)> {
+    pub(super) fn closest(&mut self, origin: Vec3, direction: Vec3) -> Option<(Hit, SurfacePoint)> {
         self.origin.put(0, origin);
         self.direction.put(0, direction);
         let rays = RayColumns {
@@ -220,7 +220,7 @@ impl<'a> Tracer<'a> {
         })
     }
 
-    fn transmittance(&mut self, origin: Vec3, target: Vec3) -> Rgb {
+    pub(super) fn transmittance(&mut self, origin: Vec3, target: Vec3) -> Rgb {
         self.origin.put(0, origin);
         self.target.put(0, target);
         let segments = SegmentColumns {
@@ -235,7 +235,7 @@ impl<'a> Tracer<'a> {
 }
 
 /// Texture coordinates and tangent, each where some material asks for it.
-fn local_coordinates(scene: &Scene, hit: Hit) -> TexturePoint {
+pub(super) fn local_coordinates(scene: &Scene, hit: Hit) -> TexturePoint {
     let needs = scene.materials.needs();
     if !(needs.textures || needs.tangents) {
         return TexturePoint::NONE;

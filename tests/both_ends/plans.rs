@@ -38,7 +38,11 @@ fn lit(material: &str) -> Arc<Scene> {
 
 /// Every technique, the depth-first ones too, and every base.
 fn all() -> Vec<Contender> {
-    let depth_first = [Technique::PtReference, Technique::PssmltReference];
+    let depth_first = [
+        Technique::PtReference,
+        Technique::PssmltReference,
+        Technique::MltReference,
+    ];
     let depth_first = depth_first.map(|technique| Contender::of(technique, Base::Pt));
     Contender::ALL.into_iter().chain(depth_first).collect()
 }
@@ -217,7 +221,7 @@ fn removing_an_effect_removes_its_columns_and_systems() {
             match contender.technique {
                 Technique::Pssmlt => expected.extend(of_chains),
                 // How long its subpaths are is decided beforehand, and no roulette asks how bright they are.
-                Technique::Mlt => expected.retain(|&name| name != "RadianceScale"),
+                Technique::Mlt | Technique::MltReference => expected.retain(|&name| name != "RadianceScale"),
                 _ => {}
             }
             expected.sort_unstable();

@@ -8,7 +8,7 @@ use chainlight::color::Rgb;
 use chainlight::film::Picture;
 use chainlight::path::ChainTable;
 use chainlight::path::whole::{PathEdges, PathLight};
-use chainlight::plan::{Direct, Plan, PlanOptions, Technique, is_direct};
+use chainlight::plan::{Direct, Plan, PlanOptions, StateSpace, Technique, is_direct};
 use chainlight::render::{
     Budget, ChainRender, DirectLight, Findings, Render, RenderError, Rendering, SavedRenderError, drive, error_blocks,
     resume,
@@ -307,7 +307,7 @@ fn no_other_technique_renders_direct_light_apart() {
                 ..PlanOptions::default()
             };
             let plan = Plan::with(&scene, technique, &options).expect("the defaults make a plan");
-            let apart = technique == Technique::Mlt && direct == Direct::default();
+            let apart = technique.space() == Some(StateSpace::PATH) && direct == Direct::default();
             assert_eq!(plan.direct.is_some(), apart, "{technique}");
             assert_eq!(plan.tile.shortest, if apart { 3 } else { 1 }, "{technique}");
         }

@@ -117,7 +117,12 @@ fn booked(render: &ChainRender) -> f64 {
 
 #[test]
 fn every_chain_decides_once_a_step_and_books_one() {
-    for technique in [Technique::Pssmlt, Technique::PssmltReference, Technique::Mlt] {
+    for technique in [
+        Technique::Pssmlt,
+        Technique::PssmltReference,
+        Technique::Mlt,
+        Technique::MltReference,
+    ] {
         let chains = Chains {
             technique,
             ..Chains::new(2, 72, 360).set("identity:weight=0.2")
@@ -264,7 +269,12 @@ fn without_light_there_is_no_seed_and_a_black_picture() {
     };
     // No emitter at all, and one that is walled in.
     for scene in [scene(""), scene(", emission: (1, 1, 1)")] {
-        for technique in [Technique::Pssmlt, Technique::PssmltReference, Technique::Mlt] {
+        for technique in [
+            Technique::Pssmlt,
+            Technique::PssmltReference,
+            Technique::Mlt,
+            Technique::MltReference,
+        ] {
             let chains = Chains {
                 technique,
                 ..Chains::new(2, 16, 256)

@@ -223,9 +223,10 @@ fn a_scene_that_names_no_technique_of_ours_is_refused_with_the_nearest() {
     copy_meshes(folder.path());
     std::fs::write(&path, named).expect("a file");
     let output = run(&["plan", "scene.ron"], folder.path());
-    let error = String::from_utf8_lossy(&output.stderr).replace('\n', " ");
+    // The message is wrapped, also at hyphens.
+    let error = String::from_utf8_lossy(&output.stderr).replace(['\n', '│'], " ");
+    let error = error.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
-        // The message is wrapped, also at hyphens.
         !output.status.success() && error.contains("(did you mean") && error.contains("scene.ron:"),
         "{error}"
     );

@@ -2,6 +2,7 @@
 
 mod colours;
 mod corridor;
+mod depth_first;
 mod film_edges;
 mod mixed;
 mod scale;

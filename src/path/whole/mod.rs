@@ -16,17 +16,21 @@
 
 mod columns;
 mod form;
+mod joint;
 mod jumps;
 mod lengths;
 mod scaled;
+mod starts;
 mod strategies;
 mod vertex;
 
 pub use columns::*;
 pub use form::{CAUSTIC_TRAIT, CHAIN_TRAIT, LENS_TRAIT, PathForm};
 pub(crate) use form::{camera_vertices, light_vertices};
+pub use joint::{Seen, complete, joining, segment};
 pub use jumps::{Sizes, aside, jump, tilt};
 pub use lengths::{Deletion, Growth, Lengths, Replacement, StrategyChoice};
 pub use scaled::Scaled;
+pub use starts::{CameraStart, LightStart};
 pub use strategies::{Measured, WholePath};
 pub use vertex::{Passage, WholeVertex};

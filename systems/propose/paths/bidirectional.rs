@@ -42,6 +42,10 @@ impl Mutation for Bidirectional {
         self.weight
     }
 
+    fn moves_paths(&self) -> Option<Box<dyn MovesPaths>> {
+        Some(Box::new(self.clone()))
+    }
+
     fn systems(&self) -> Vec<SystemPlan> {
         path_systems!(Self, "bidirectional":
             propose "part of the path is replaced",

@@ -64,6 +64,10 @@ impl Mutation for CausticPerturbation {
         if state.traits() & CAUSTIC_TRAIT != 0 { 1.0 } else { 0.0 }
     }
 
+    fn moves_paths(&self) -> Option<Box<dyn MovesPaths>> {
+        Some(Box::new(self.clone()))
+    }
+
     fn systems(&self) -> Vec<SystemPlan> {
         path_systems!(Self, "caustic":
             propose "light leaves in a direction nearby",

@@ -63,6 +63,10 @@ impl Mutation for LensPerturbation {
         if state.traits() & LENS_TRAIT != 0 { 1.0 } else { 0.0 }
     }
 
+    fn moves_paths(&self) -> Option<Box<dyn MovesPaths>> {
+        Some(Box::new(self.clone()))
+    }
+
     fn systems(&self) -> Vec<SystemPlan> {
         path_systems!(Self, "lens":
             propose "the path is seen from a pixel nearby",

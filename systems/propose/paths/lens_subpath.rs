@@ -47,6 +47,10 @@ impl Mutation for LensSubpath {
         if state.traits() & LENS_TRAIT != 0 { 1.0 } else { 0.0 }
     }
 
+    fn moves_paths(&self) -> Option<Box<dyn MovesPaths>> {
+        Some(Box::new(self.clone()))
+    }
+
     fn systems(&self) -> Vec<SystemPlan> {
         path_systems!(Self, "lens_subpath":
             propose "light that was found is seen from elsewhere",

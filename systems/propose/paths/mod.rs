@@ -11,7 +11,7 @@ mod multi_chain;
 mod new_path;
 mod range;
 mod start_paths;
-mod steering;
+pub mod steering;
 pub mod view;
 
 pub use bidirectional::Bidirectional;
@@ -21,5 +21,5 @@ pub use lens_subpath::LensSubpath;
 pub use moves_paths::{MovesPaths, PathProposal, SteeredLight, Way};
 pub use multi_chain::MultiChainPerturbation;
 pub use new_path::NewPath;
-pub use start_paths::{end_vertex, make_room, start_paths};
+pub use start_paths::{make_room, start_paths};
 pub use view::PathView;

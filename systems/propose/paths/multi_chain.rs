@@ -85,6 +85,10 @@ impl Mutation for MultiChainPerturbation {
         if state.traits() & CHAIN_TRAIT != 0 { 1.0 } else { 0.0 }
     }
 
+    fn moves_paths(&self) -> Option<Box<dyn MovesPaths>> {
+        Some(Box::new(self.clone()))
+    }
+
     fn systems(&self) -> Vec<SystemPlan> {
         path_systems!(Self, "multi_chain":
             propose "the path is seen from a pixel nearby",

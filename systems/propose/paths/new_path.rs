@@ -67,6 +67,10 @@ impl Mutation for NewPath {
         }
     }
 
+    fn moves_paths(&self) -> Option<Box<dyn MovesPaths>> {
+        Some(Box::new(self.clone()))
+    }
+
     fn systems(&self) -> Vec<SystemPlan> {
         path_systems!(Self, "new_path":
             propose "bootstraps and new paths start at both ends",

@@ -4,7 +4,6 @@ use super::super::super::paths::{VertexColumns, VertexColumnsMut, Vertices, Vert
 use super::super::super::tile::{Queues, SceneRef, TilePlace, grow_tables};
 use super::super::super::trace::draws::{DrawColumns, Draws};
 use crate::geometry::NOT_EMITTING;
-use crate::light::{Emitted, Endpoint};
 use crate::material::MaterialKind;
 use crate::path::whole::*;
 use crate::path::*;
@@ -111,7 +110,7 @@ pub fn start_paths(
                     run.pixels.put(chain, pixels.at(chain));
                     run.film.put(chain, film.at(chain));
                 }
-                run.keep(kept, |depth| depth as usize, NOT_EMITTING);
+                run.keep(kept, None, NOT_EMITTING);
                 if kept.count == 1 && kept.made > 1 {
                     run.look_through(chain);
                 }
@@ -129,8 +128,7 @@ pub fn start_paths(
                     made: s,
                     steered: stops.at(from_light) & STEERED != 0,
                 };
-                let last = edges.at(chain) as usize;
-                run.keep(kept, |depth| last - depth as usize, lights.at(chain));
+                run.keep(kept, Some(edges.at(chain)), lights.at(chain));
                 if kept.count == 1 && kept.steered {
                     run.shine_from(from_light, origins.at(chain));
                 }
@@ -181,19 +179,17 @@ impl Run<'_> {
 
     /// A new point of the lens, and a place of the film; nobody looks through it yet where the lens is all of the subpath.
     fn start_camera(&mut self, chain: usize, goes_on: bool) {
-        let camera = &self.scene.camera;
-        let lens = if camera.has_aperture() {
+        let lens = if self.scene.camera.has_aperture() {
             self.draws.lens(chain)
         } else {
             LENS_CENTER
         };
-        let (pixel, film) = FilmCoordinates::independent(self.keys.at(chain)).on_film(self.scene);
-        let ray = camera.ray(film, lens);
-        self.pixels.put(chain, pixel);
-        self.film.put(chain, film);
-        self.start(chain, &lens_vertex(self.scene, ray.origin, ray.direction), NOT_EMITTING);
+        let start = CameraStart::draw(self.scene, self.keys.at(chain), lens);
+        self.pixels.put(chain, start.pixel);
+        self.film.put(chain, start.film);
+        self.start(chain, &start.vertex, NOT_EMITTING);
         if goes_on {
-            self.directions.put(chain, ray.direction);
+            self.directions.put(chain, start.direction);
             self.activate(chain);
         }
     }
@@ -205,7 +201,7 @@ impl Run<'_> {
             let lens = self.vertices.at(chain);
             let ray = camera.ray_from(lens.surface.position, self.film.at(chain));
             self.vertices
-                .put(chain, &lens_vertex(self.scene, ray.origin, ray.direction));
+                .put(chain, &WholeVertex::lens(self.scene, ray.origin, ray.direction));
         }
     }
 
@@ -220,14 +216,13 @@ impl Run<'_> {
 
     /// A point of a light, and a way from it.
     fn start_light(&mut self, path: usize, goes_on: bool) {
-        let (light, direction) = self.draws.emission(path);
-        let Some(emitted) = self.scene.lights.emit(light.choice, light.point, direction) else {
+        let Some(start) = LightStart::draw(self.scene, self.draws.emission(path)) else {
             self.without(path);
             return;
         };
-        self.start(path, &light_vertex(&emitted), emitted.light);
+        self.start(path, &start.vertex, start.light);
         if goes_on {
-            self.directions.put(path, emitted.direction);
+            self.directions.put(path, start.direction);
             self.activate(path);
         }
     }
@@ -238,26 +233,16 @@ impl Run<'_> {
         self.lights.put(path, light);
     }
 
-    /// Copies vertices of the current path, `of(depth)` each, and goes on from the last.
-    fn keep(&mut self, kept: Kept, of: impl Fn(u32) -> usize, light: u32) {
+    /// Copies vertices of the current path, and goes on from the last.
+    fn keep(&mut self, kept: Kept, from_light: Option<u32>, light: u32) {
         let Kept { chain, path, count, .. } = kept;
-        let from_light = self.place.starts_at_light(path);
-        let last = count - 1;
-        let mut end = end_vertex(VERTEX_LENS, Vec3::ZERO, Vec3::ZERO, 0.0);
+        let mut end = WholeVertex::end(VERTEX_LENS, Vec3::ZERO, Vec3::ZERO, 0.0);
         for depth in 0..count {
-            let number = of(depth);
-            end = self.current.at(self.place.path_vertex(chain, number));
-            if depth == last && depth > 0 {
-                end.kind = VERTEX_SURFACE;
-            }
-            if from_light && depth > 0 {
-                // From the light it was reached against the next edge.
-                let next = self.current.at(self.place.path_vertex(chain, number + 1));
-                end.surface.direction = -next.surface.direction;
-            }
+            let of = |i: u32| self.current.at(self.place.path_vertex(chain, i as usize));
+            end = WholeVertex::kept(of, depth, count, from_light);
             self.vertices.put(self.place.vertex(path, depth), &end);
         }
-        self.lengths.put(path, last);
+        self.lengths.put(path, count - 1);
         self.lights.put(path, light);
         if kept.made == count {
             return;
@@ -277,45 +262,5 @@ impl Run<'_> {
             self.scatter.put(entry, path as u32);
             self.queues.scatter[model] += 1;
         }
-    }
-}
-
-/// An end of a path: a place and a normal, and no surface that scatters.
-#[must_use]
-pub fn end_vertex(kind: u32, position: Vec3, normal: Vec3, offset: f32) -> WholeVertex {
-    WholeVertex {
-        surface: Scatterer {
-            position,
-            normal,
-            shading_normal: normal,
-            offset,
-            material: 0,
-            uv: glam::Vec2::ZERO,
-            tangent: Vec3::ZERO,
-            direction: Vec3::ZERO,
-        },
-        kind,
-    }
-}
-
-/// The vertex x₀ of a ray that leaves the camera.
-#[must_use]
-pub fn lens_vertex(scene: &Scene, origin: Vec3, direction: Vec3) -> WholeVertex {
-    if scene.camera.is_directional() {
-        end_vertex(VERTEX_INFINITE, origin, direction, 0.0)
-    } else {
-        end_vertex(VERTEX_LENS, origin, Vec3::ZERO, 0.0)
-    }
-}
-
-/// The vertex y₀ of light that was sent.
-fn light_vertex(emitted: &Emitted) -> WholeVertex {
-    match emitted.endpoint {
-        Endpoint::Surface => {
-            let offset = (emitted.origin - emitted.position).dot(emitted.normal);
-            end_vertex(VERTEX_LIGHT, emitted.position, emitted.normal, offset)
-        }
-        Endpoint::Point => end_vertex(VERTEX_LIGHT, emitted.position, emitted.normal, 0.0),
-        Endpoint::Infinite => end_vertex(VERTEX_INFINITE, emitted.origin, emitted.normal, 0.0),
     }
 }

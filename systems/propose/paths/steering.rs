@@ -7,12 +7,15 @@ use super::super::super::tile::{Queues, SceneRef, TilePlace};
 use super::moves_paths::MovesPaths;
 use crate::chain::ChosenMutation;
 use crate::material::Transport;
-use crate::path::whole::{PathEdges, PathTable};
+use crate::path::whole::{PathEdges, PathTable, WholeVertex};
 use crate::path::{
     ChainTable, Direction, DrawList, PathLength, ProposalTable, ScatteredList, Scatterer, VERTEX_DISCRETE,
 };
+use crate::sampling::StreamKey;
+use crate::scene::Scene;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut, SystemParam};
+use glam::Vec3;
 
 /// Subpaths that wait to be steered, and what that takes.
 #[derive(SystemParam)]
@@ -55,35 +58,60 @@ impl Steering<'_, '_> {
             let old = current.at(place.path_vertex(chain, i as usize));
             let onward = current.at(place.path_vertex(chain, i as usize + 1)).surface.direction;
             let vertex = place.vertex(path, depth);
-            let new = vertices.at(vertex);
-            let surface = Scatterer {
-                direction: directions.at(path),
-                ..new.surface
+            let reached = Reached {
+                surface: Scatterer {
+                    direction: directions.at(path),
+                    ..vertices.at(vertex).surface
+                },
+                key: keys.at(chain),
+                depth: place.stream_depth(path, depth),
+                from_light,
             };
-            let direction = if old.kind == VERTEX_DISCRETE {
-                let transport = if from_light {
-                    Transport::Importance
-                } else {
-                    Transport::Radiance
-                };
-                let lobe = old.lobe(onward);
-                let materials = &scene.materials;
-                let scatter = |wi| materials.discrete(surface.material, surface.uv, wi, lobe, transport);
-                let Some((direction, _)) = surface.scatter(transport, scatter) else {
-                    continue;
-                };
+            let Some(direction) = reached.goes_on(scene, mutation, &old, onward) else {
+                continue;
+            };
+            if old.kind == VERTEX_DISCRETE {
                 vertices.put_kind(vertex, VERTEX_DISCRETE);
-                direction
-            } else {
-                if scene.materials.kind(surface.material).is_discrete() {
-                    continue;
-                }
-                let outgoing = if from_light { -old.surface.direction } else { onward };
-                mutation.near(outgoing, keys.at(chain), place.stream_depth(path, depth))
-            };
+            }
             directions.put(path, direction);
             scattered.put(self.queues.scattered, path as u32);
             self.queues.scattered += 1;
         }
+    }
+}
+
+/// A vertex that a steered subpath has reached.
+pub struct Reached {
+    /// Its surface, with the direction in which the subpath arrives.
+    pub surface: Scatterer,
+    /// The key of the chain's draws.
+    pub key: StreamKey,
+    /// The depth that tells vertices apart in them.
+    pub depth: u32,
+    /// Whether the subpath comes from the light.
+    pub from_light: bool,
+}
+
+impl Reached {
+    /// The unit direction in which the subpath goes on, where the current path goes from its vertex `old` in the direction `onward`;
+    /// through a discrete lobe, if that does. `None` where it ends.
+    #[must_use]
+    pub fn goes_on(&self, scene: &Scene, mutation: &dyn MovesPaths, old: &WholeVertex, onward: Vec3) -> Option<Vec3> {
+        let Self {
+            surface, from_light, ..
+        } = self;
+        if old.kind == VERTEX_DISCRETE {
+            let transport = if *from_light {
+                Transport::Importance
+            } else {
+                Transport::Radiance
+            };
+            let (lobe, materials) = (old.lobe(onward), &scene.materials);
+            let scatter = |wi| materials.discrete(surface.material, surface.uv, wi, lobe, transport);
+            return Some(surface.scatter(transport, scatter)?.0);
+        }
+        let goes_near = !scene.materials.kind(surface.material).is_discrete();
+        let outgoing = if *from_light { -old.surface.direction } else { onward };
+        goes_near.then(|| mutation.near(outgoing, self.key, self.depth))
     }
 }

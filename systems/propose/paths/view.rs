@@ -8,6 +8,7 @@ use crate::scene::Scene;
 use crate::table::{Read, Rows};
 use bevy_ecs::system::SystemParam;
 use glam::{Vec2, Vec3};
+use std::ops::Deref;
 
 /// A path x₀ … xₖ of a chain: its state, or what is proposed.
 #[derive(Clone, Copy)]
@@ -16,6 +17,13 @@ pub struct PathView<'a> {
     pub scene: &'a Scene,
     place: &'a TilePlace,
     chain: usize,
+    ends: PathEnds,
+    rows: &'a PathRows<'a>,
+}
+
+/// What is known of a path as a whole.
+#[derive(Clone, Copy, Debug)]
+pub struct PathEnds {
     /// k; 0 before a chain has its first state.
     pub edges: u32,
     /// The place on the film, in pixels, through which it is seen.
@@ -24,18 +32,47 @@ pub struct PathView<'a> {
     pub filter: f32,
     /// See [`Measured::kept_light`].
     pub kept_light: f64,
-    rows: &'a PathRows<'a>,
 }
 
 /// The rows of a table of paths.
 pub struct PathRows<'a> {
-    pub(super) vertices: VertexColumns<'a>,
-    pub(super) shares: &'a [PathShare],
-    pub(super) onwards: &'a [PathOnward],
-    pub(super) backs: &'a [PathBack],
+    /// Vertices.
+    pub vertices: VertexColumns<'a>,
+    /// See [`PathView::share`].
+    pub shares: &'a [PathShare],
+    /// See [`PathView::onward`].
+    pub onwards: &'a [PathOnward],
+    /// See [`PathView::back`].
+    pub backs: &'a [PathBack],
 }
 
-impl PathView<'_> {
+impl Deref for PathView<'_> {
+    type Target = PathEnds;
+
+    fn deref(&self) -> &PathEnds {
+        &self.ends
+    }
+}
+
+impl<'a> PathView<'a> {
+    /// The path of a chain of the tile at `place`, whose vertices are in `rows`.
+    #[must_use]
+    pub const fn new(
+        scene: &'a Scene,
+        place: &'a TilePlace,
+        chain: usize,
+        ends: PathEnds,
+        rows: &'a PathRows<'a>,
+    ) -> Self {
+        Self {
+            scene,
+            place,
+            chain,
+            ends,
+            rows,
+        }
+    }
+
     #[inline]
     fn row(&self, i: u32) -> usize {
         self.place.path_vertex(self.chain, i as usize)
@@ -169,16 +206,13 @@ macro_rules! paths {
             #[inline]
             #[must_use]
             pub fn of(&'a self, scene: &'a Scene, place: &'a TilePlace, chain: usize) -> PathView<'a> {
-                PathView {
-                    scene,
-                    place,
-                    chain,
+                let ends = PathEnds {
                     edges: self.edges.at(chain),
                     film: self.film.at(chain),
                     filter: self.filters.at(chain),
                     kept_light: self.kept_lights.at(chain),
-                    rows: &self.rows,
-                }
+                };
+                PathView::new(scene, place, chain, ends, &self.rows)
             }
         }
     };

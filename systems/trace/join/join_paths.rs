@@ -1,17 +1,13 @@
 //! The one edge that completes a proposed path.
 
 use super::super::super::paths::VerticesMut;
-use super::super::super::propose::end_vertex;
 use super::super::super::tile::{Queues, SceneRef, TilePlace};
 use super::super::draws::Draws;
 use crate::geometry::{RayOrigin, SegmentTarget};
-use crate::light::Endpoint;
-use crate::path::whole::{CameraVertices, KeptFromLight, LightVertices, WholeVertex};
+use crate::path::whole::{CameraVertices, KeptFromLight, LightVertices, WholeVertex, segment};
 use crate::path::*;
-use crate::scene::Scene;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut, SystemParam};
-use glam::Vec3;
 
 /// What mutations asked for, and what became of it.
 #[derive(SystemParam)]
@@ -70,25 +66,17 @@ pub fn join_paths(
         }
         if s == 1 && light_kept.at(chain) == 0 && t > 1 {
             let draw = draws.light(chain, t - 1);
-            let Some(sample) = scene.lights.sample(x.surface.position, draw.choice, draw.point) else {
+            let Some((light, end)) = WholeVertex::sampled_light(scene, x.surface.position, draw) else {
                 continue;
             };
-            let end = match scene.lights.endpoint(sample.light) {
-                Endpoint::Infinite => end_vertex(VERTEX_INFINITE, sample.position, sample.normal, 0.0),
-                Endpoint::Point => end_vertex(VERTEX_LIGHT, sample.position, sample.normal, 0.0),
-                Endpoint::Surface => {
-                    let offset = (sample.target - sample.position).dot(sample.normal);
-                    end_vertex(VERTEX_LIGHT, sample.position, sample.normal, offset)
-                }
-            };
             lengths.put(light_path, 0);
-            lights.put(light_path, sample.light);
+            lights.put(light_path, light);
             vertices.put(light_path, &end);
         } else if lengths.at(light_path) != s - 1 {
             continue;
         }
         let y = vertices.at(place.vertex(light_path, s - 1));
-        let Some((origin, target)) = ends(scene, &x, &y, t == 1) else {
+        let Some((origin, target)) = segment(scene, &x, &y, t == 1) else {
             continue;
         };
         proposed.put(chain, edges);
@@ -97,35 +85,4 @@ pub fn join_paths(
         targets.put(queues.segments, target);
         queues.segments += 1;
     }
-}
-
-/// Where the segment from `x`, the last vertex of the camera subpath, to `y`, the last of the light subpath, starts and ends.
-fn ends(scene: &Scene, x: &WholeVertex, y: &WholeVertex, from_lens: bool) -> Option<(Vec3, Vec3)> {
-    if from_lens {
-        if y.kind == VERTEX_INFINITE {
-            return None;
-        }
-        let view = scene.camera.project(x.surface.position, y.surface.position)?;
-        return Some((y.surface.leaving(-view.direction), view.origin));
-    }
-    let direction = joining(scene, x, y)?;
-    let origin = x.surface.leaving(direction);
-    if y.kind == VERTEX_INFINITE {
-        return Some((origin, scene.lights.beyond(x.surface.position, direction)));
-    }
-    Some((origin, y.surface.leaving(-direction)))
-}
-
-/// The unit direction of the edge from `x` to `y`; `None` where both are in one place.
-#[must_use]
-pub fn joining(scene: &Scene, x: &WholeVertex, y: &WholeVertex) -> Option<Vec3> {
-    if y.kind == VERTEX_INFINITE {
-        return Some(-y.surface.normal);
-    }
-    if matches!(x.kind, VERTEX_LENS | VERTEX_INFINITE) {
-        return Some(scene.camera.project(x.surface.position, y.surface.position)?.direction);
-    }
-    let span = y.surface.position.as_dvec3() - x.surface.position.as_dvec3();
-    let squared = span.length_squared();
-    (squared > 0.0).then(|| (span / squared.sqrt()).as_vec3())
 }

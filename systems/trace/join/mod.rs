@@ -10,6 +10,6 @@ mod transmit_connections;
 
 pub use book_connections::book_connections;
 pub use join_loop::{JoinCursor, join_loop};
-pub use join_paths::{join_paths, joining};
+pub use join_paths::join_paths;
 pub use offer_connections::offer_connections;
 pub use transmit_connections::transmit_connections;
