@@ -166,8 +166,8 @@ impl Maker<'_> {
         let (scene, key) = (self.scene, self.key);
         let [t, s] = self.proposal.made;
         let Room { camera, light, .. } = room;
-        let (started, met) = self.from_camera(tracer, camera);
-        let mut sent = self.from_light(tracer, light);
+        let (started, met) = self.grow_from_camera(tracer, camera);
+        let mut sent = self.grow_from_light(tracer, light);
         if camera.len() != t as usize {
             return None;
         }
@@ -207,7 +207,7 @@ impl Maker<'_> {
     }
 
     /// The subpath from the camera: the pixel and place that it is started through, and the light that its last vertex is on.
-    fn from_camera(&self, tracer: &mut Tracer<'_>, path: &mut Vec<WholeVertex>) -> ((u32, Vec2), u32) {
+    fn grow_from_camera(&self, tracer: &mut Tracer<'_>, path: &mut Vec<WholeVertex>) -> ((u32, Vec2), u32) {
         let Self {
             scene, proposal, state, ..
         } = self;
@@ -245,7 +245,7 @@ impl Maker<'_> {
     }
 
     /// The subpath from the light, and the light that it starts on.
-    fn from_light(&self, tracer: &mut Tracer<'_>, path: &mut Vec<WholeVertex>) -> u32 {
+    fn grow_from_light(&self, tracer: &mut Tracer<'_>, path: &mut Vec<WholeVertex>) -> u32 {
         let Self {
             scene, proposal, state, ..
         } = self;
