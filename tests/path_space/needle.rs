@@ -41,7 +41,8 @@ fn room() -> Arc<Scene> {
 /// Makes a needle of the state of every chain whose last proposal was an independent one that brings light, since that tells its
 /// density: W there becomes `times` b. Which chains those are.
 fn make_needles(render: &ChainRender, times: f64) -> Vec<bool> {
-    let mut needles = Vec::new();
+    // Tiles come in any order.
+    let mut needles = vec![false; render.run.counts().total() as usize];
     let b: f64 = render.run.normalizations().iter().sum::<f64>() / f64::from(GROUPS);
     let mutations = &render.run.chains().mutations;
     let is_independent = |number: u32| ["new_path", "large_step"].contains(&mutations[number as usize].mutation.name());
@@ -58,7 +59,7 @@ fn make_needles(render: &ChainRender, times: f64) -> Vec<bool> {
         for chain in 0..count {
             let took = rejections[chain] == 0;
             let tells = is_independent(chosen[chain]) && proposed[chain] > 0.0;
-            needles.push(tells);
+            needles[chains.start as usize + chain] = tells;
             if tells {
                 // Densities are kept as logarithms.
                 let density = if took { forward[chain] } else { reverse[chain] };

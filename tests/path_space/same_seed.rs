@@ -23,11 +23,11 @@ use std::sync::Arc;
 const CHAINS: u32 = 16;
 const GROUPS: u32 = 512;
 /// Renders of so many groups, each with a seed of its own.
-const RUNS: u64 = 4;
+const RUNS: u64 = 3;
 /// Pixels along each side of the film, each a block of its own.
 const SIDE: u32 = 8;
 /// Enough for chains to forget where they start: what they still share then can only be what they draw.
-const STEPS: u64 = 60;
+const STEPS: u64 = 30;
 
 /// A closed room as bright everywhere on the film: where chains are seen is uniform.
 fn room() -> Arc<Scene> {
@@ -117,7 +117,7 @@ fn correlations(groups: &[Vec<StateClass>]) -> [Estimate; 2] {
 
 #[test]
 fn chains_of_one_seed_are_uncorrelated() {
-    let path_space = paths(GROUPS, CHAINS, CHAINS).set("new_path:weight=1");
+    let path_space = paths(GROUPS, CHAINS, CHAINS).set("new_path:weight=4");
     let primary = Chains::new(GROUPS, CHAINS, CHAINS);
     let family = Family { tests: 4 };
     for (name, chains) in [("mlt", path_space), ("pssmlt", primary)] {
