@@ -79,15 +79,13 @@ fn shortened(chains: &Chains, planted: bool, steps: u64) -> (usize, usize) {
         render.run.for_each_tile(&mut |chains, tile| {
             let lights_from = tile.world().resource::<TilePlace>().lights_from as usize;
             let lengths = tile.all::<PathLength, ChainTable>();
-            let asked = [
-                tile.all::<CameraVertices, ChainTable>(),
-                tile.all::<LightVertices, ChainTable>(),
-            ];
-            for chain in 0..chains.len() {
-                // A single vertex is where a subpath starts: nothing grows. Where there is no proposal there is nothing at all.
-                let grows = |vertices: u32| vertices > 1 && asked[0][chain] > 0;
-                for (vertices, path) in [(asked[0][chain], chain), (asked[1][chain], lights_from + chain)] {
-                    if grows(vertices) {
+            let cameras = tile.all::<CameraVertices, ChainTable>();
+            let lights = tile.all::<LightVertices, ChainTable>();
+            let asked = cameras.into_iter().zip(lights).take(chains.len());
+            for (chain, (t, s)) in asked.enumerate() {
+                for (vertices, path) in [(t, chain), (s, lights_from + chain)] {
+                    // A single vertex is where a subpath starts: nothing grows. Without any from the camera there is no proposal.
+                    if vertices > 1 && t > 0 {
                         grown += 1;
                         short += usize::from(lengths[path] != vertices - 1);
                     }
