@@ -4,8 +4,13 @@ mod colours;
 mod corridor;
 mod depth_first;
 mod film_edges;
+mod measured_again;
 mod mixed;
+mod needle;
+mod roulette;
+mod same_seed;
 mod scale;
+mod two_rooms;
 
 use crate::support::chains::Chains;
 use chainlight::plan::{Direct, Technique};
