@@ -5,7 +5,7 @@ use super::ends::{Arrival, EndColumns, Ends};
 use crate::color::Rgb;
 use crate::geometry::{Hit, HitInstance, HitPrimitive, HitUv, NO_HIT, NOT_EMITTING};
 use crate::path::mis::Heuristic;
-use crate::path::whole::{STEERED, StopDepth};
+use crate::path::whole::{STEERED, StopDepth, TO_JOINT, stop_depth};
 use crate::path::*;
 use crate::scene::Scene;
 use crate::table::{Read, Rows, Write};
@@ -283,12 +283,13 @@ impl Run<'_> {
                     draw.put(queues.draw, path as u32);
                     queues.draw += 1;
                 }
-                if depth >= last {
+                if depth >= last || place.sought.ends_behind(kinds.at(previous)) {
                     continue;
                 }
             } else {
                 let stop = stops.at(path);
-                if depth >= stop & !STEERED {
+                let ends_here = stop & TO_JOINT != 0 && !scene.materials.kind(material).has_discrete_lobe();
+                if depth >= stop_depth(stop) || ends_here {
                     continue;
                 }
                 if stop & STEERED != 0 {

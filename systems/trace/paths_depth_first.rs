@@ -102,9 +102,16 @@ pub fn propose_paths_depth_first(
             },
             proposal,
         };
-        let Some((k, seen, light, passing)) = maker.make(&mut tracer, &mut room) else {
+        let Some(made) = maker.make(&mut tracer, &mut room) else {
             continue;
         };
+        let Made {
+            t,
+            k,
+            seen,
+            light,
+            passing,
+        } = made;
         edges.put(chain, k);
         let Room { camera, measured, .. } = &mut *room;
         let vertices = &camera[..];
@@ -132,7 +139,7 @@ pub fn propose_paths_depth_first(
             from: path,
             to: PathView::new(&scene.0, &place, chain, ends, &rows),
             kept: proposal.kept,
-            made: proposal.made[0],
+            made: t,
             is_back: false,
             key,
         };
@@ -149,6 +156,20 @@ struct State<'a> {
     pixel: u32,
 }
 
+/// What was made of a proposal.
+struct Made {
+    /// Vertices of its camera subpath.
+    t: u32,
+    /// Its edges.
+    k: u32,
+    /// Where it is seen, if it is.
+    seen: Option<Seen>,
+    /// The light that it ends on.
+    light: u32,
+    /// What passes the edge that joins its subpaths.
+    passing: Rgb,
+}
+
 /// What makes a proposal of a state.
 struct Maker<'a> {
     scene: &'a Scene,
@@ -160,14 +181,19 @@ struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    /// Grows both subpaths and joins them; leaves the path in the room's camera subpath. Its edges, where it is seen, the light that it
-    /// ends on, and what passes the edge that joins them.
-    fn make(&self, tracer: &mut Tracer<'_>, room: &mut Room) -> Option<(u32, Option<Seen>, u32, Rgb)> {
+    /// Grows both subpaths and joins them; leaves the path in the room's camera subpath.
+    fn make(&self, tracer: &mut Tracer<'_>, room: &mut Room) -> Option<Made> {
         let (scene, key) = (self.scene, self.key);
-        let [t, s] = self.proposal.made;
+        let [mut t, s] = self.proposal.made;
         let Room { camera, light, .. } = room;
         let (started, met) = self.grow_from_camera(tracer, camera);
         let mut sent = self.grow_from_light(tracer, light);
+        if self.proposal.to_joint {
+            t = camera.len() as u32;
+            if t < 2 || camera[t as usize - 1].kind == VERTEX_DISCRETE {
+                return None;
+            }
+        }
         if camera.len() != t as usize {
             return None;
         }
@@ -203,7 +229,13 @@ impl Maker<'_> {
             Seen::through(scene, key, film, (self.proposal.kept[0] != 1).then_some(pixel))
         };
         let ends_on = complete(scene, key, camera, light[..s as usize].iter().rev().copied(), ends_on)?;
-        Some((k, seen, ends_on, passing))
+        Some(Made {
+            t,
+            k,
+            seen,
+            light: ends_on,
+            passing,
+        })
     }
 
     /// The subpath from the camera: the pixel and place that it is started through, and the light that its last vertex is on.
@@ -291,9 +323,18 @@ impl Maker<'_> {
         let (scene, mut met) = (self.scene, NOT_EMITTING);
         while path.len() < made as usize {
             let depth = path.len() as u32 - 1;
+            let to_joint = self.proposal.to_joint && !from_light && depth > 0;
+            let material = path[depth as usize].surface.material;
+            if to_joint && !scene.materials.kind(material).has_discrete_lobe() {
+                break;
+            }
             let Some(direction) = next.take().or_else(|| self.scatter(path, depth, from_light)) else {
                 break;
             };
+            // It was scattered, but into no discrete lobe.
+            if to_joint && path[depth as usize].kind != VERTEX_DISCRETE {
+                break;
+            }
             let last = &path[depth as usize].surface;
             let (position, normal) = (last.position, last.normal);
             let origin = offset_origin(position, normal, last.offset, direction);

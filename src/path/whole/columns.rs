@@ -26,6 +26,9 @@ impl Table for ProposedPathTable {
     type Apart = Without<ProposalTable>;
 }
 
+/// Set in [`StopDepth`] where a subpath ends at the first vertex that it does not go through by a discrete lobe, if that comes before.
+pub const TO_JOINT: u32 = 1 << 30;
+
 /// Set in [`StopDepth`] where a subpath's directions are not drawn by its materials, but by its mutation.
 pub const STEERED: u32 = 1 << 31;
 
@@ -61,7 +64,7 @@ columns! {
     pub CameraVertices: u32;
     /// Vertices that its light subpath is to have, s.
     pub LightVertices: u32;
-    /// Depth at which a subpath is to end, and [`STEERED`] where its mutation says in which directions it goes.
+    /// Depth at which a subpath is to end, [`STEERED`] where its mutation says in which directions it goes, and [`TO_JOINT`].
     pub StopDepth: u32;
 
     /// Where the first ray of a light subpath starts that its mutation steers and that comes from infinity.
@@ -73,4 +76,11 @@ columns! {
     pub PathOnward: f32;
     /// Density of going on towards the camera.
     pub PathBack: f32;
+}
+
+/// The depth at which a subpath is to end, of a [`StopDepth`].
+#[inline]
+#[must_use]
+pub const fn stop_depth(stop: u32) -> u32 {
+    stop & !(STEERED | TO_JOINT)
 }

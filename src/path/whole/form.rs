@@ -2,7 +2,7 @@
 
 use super::WholeVertex;
 use crate::chain::{Signature, StateClass};
-use crate::path::VERTEX_DISCRETE;
+use crate::path::{VERTEX_DISCRETE, is_direct};
 
 /// Trait of a state, see [`StateClass::traits`]: the first vertex that scatters with a density, if there is one, has a neighbour
 /// towards the light that does too, or is the light: the form E S* D (D|L), or E S* L.
@@ -38,6 +38,12 @@ impl PathForm<'_> {
     #[must_use]
     pub fn light_vertices(&self) -> Option<(usize, usize)> {
         light_vertices(self.vertices.len() - 1, |i| self.is_discrete(i))
+    }
+
+    /// Whether its light is [direct](crate::path::is_direct).
+    #[must_use]
+    pub fn is_direct(&self) -> bool {
+        is_direct(self.vertices.len() - 1, |i| self.is_discrete(i))
     }
 
     /// Length, signature and traits.

@@ -76,6 +76,22 @@ impl WholeVertex {
         })
     }
 
+    /// The probability that a subpath from the camera which arrives here is scattered into no discrete lobe.
+    #[must_use]
+    pub fn stopping(&self, scene: &Scene) -> f64 {
+        let surface = &self.surface;
+        if !scene.materials.kind(surface.material).has_discrete_lobe() {
+            return 1.0;
+        }
+        let going = [DiscreteLobe::Reflection, DiscreteLobe::Refraction].map(|lobe| {
+            let (materials, transport) = (&scene.materials, Transport::Radiance);
+            let scatter = |wi| materials.discrete(surface.material, surface.uv, wi, lobe, transport);
+            let found = surface.scatter(transport, scatter);
+            found.map_or(0.0, |(_, outcome)| f64::from(outcome.density))
+        });
+        (1.0 - going[0] - going[1]).max(0.0)
+    }
+
     /// The discrete lobe by which a path goes on in the direction `outgoing`.
     #[must_use]
     pub fn lobe(&self, outgoing: Vec3) -> DiscreteLobe {

@@ -6,18 +6,20 @@
 //! |---|---|---|
 //! | `weight` | how often it is tried, relative to the other mutations, where it is suitable | 0.5 |
 //!
-//! Suitable for paths E S* D (D|L), and E S* L. It carries light that was found to all of the film that can see it, so that pixels
-//! are visited about equally often; the number of mirrors and clear surfaces may change.
+//! Suitable for paths E S* D (D|L); of those that see the light itself, E S* L, it makes nothing. It carries light that was found to all of the film that can see it, so that pixels
+//! are visited about equally often. The number of mirrors and clear surfaces is what it comes to: were it chosen beforehand, near to
+//! that of the current path, chains would be caught in light that comes by way of many, which is seldom, but seldom left too.
 //!
-//! T(x→y): the probability of the new number of vertices, times the density of the one strategy.
+//! T(x→y): the density of the one strategy, times the probability of stopping where it is joined, which is 1 but on surfaces that are
+//! matt and mirror at once.
 
 use super::moves_paths::{MovesPaths, PathProposal, Way};
 use super::view::PathView;
 use crate::chain::StateClass;
-use crate::path::whole::{Growth, LENS_TRAIT};
+use crate::path::whole::LENS_TRAIT;
 use crate::path_systems;
 use crate::plan::{Mutation, StateSpace, SystemPlan};
-use crate::sampling::{Purpose, StreamKey};
+use crate::sampling::StreamKey;
 use serde::{Deserialize, Serialize};
 
 /// Settings of `lens_subpath`.
@@ -58,34 +60,38 @@ impl Mutation for LensSubpath {
     }
 }
 
-/// The numbers of vertices that a subpath from the camera can have which is joined to `s` of a path.
-fn growth(path: &PathView<'_>, s: u32) -> Growth {
-    Growth {
-        least: 2.max((path.shortest() + 1).saturating_sub(s)),
-        most: path.longest() + 1 - s,
-    }
+/// The most vertices that a subpath from the camera can have which is joined to `s` of a path.
+fn most(path: &PathView<'_>, s: u32) -> u32 {
+    path.longest() + 1 - s
 }
 
 impl MovesPaths for LensSubpath {
-    fn propose(&self, path: &PathView<'_>, key: StreamKey) -> Option<PathProposal> {
-        let t = path.camera_vertices();
-        let s = path.edges + 1 - t;
-        let u = key.stream(Purpose::PERTURB, 0).next_f64();
-        Some(PathProposal::new([0, s], [growth(path, s).sample(t, u), s]))
+    fn propose(&self, path: &PathView<'_>, _: StreamKey) -> Option<PathProposal> {
+        let s = path.edges + 1 - path.camera_vertices();
+        // Where the lens sees the light itself, nothing would be kept.
+        (s > 0).then(|| PathProposal {
+            to_joint: true,
+            ..PathProposal::new([0, s], [most(path, s), s])
+        })
     }
 
-    /// A new start that scatters with a density before its last vertex is not one that could have been chosen.
+    /// A new start that scatters with a density before its last vertex is not one that could have been drawn.
     fn density(&self, way: &Way<'_>) -> f64 {
         let s = way.kept[1];
-        let vertices = |edges: u32| edges + 1 - s;
-        let (from, to) = (vertices(way.from.edges), vertices(way.to.edges));
-        if way.from.camera_vertices() != from || way.to.camera_vertices() != to {
+        let t = way.to.edges + 1 - s;
+        if way.from.camera_vertices() + s != way.from.edges + 1 || way.to.camera_vertices() != t {
             return 0.0;
         }
-        if (1..to - 1).any(|i| !way.to.is_discrete(i)) {
+        if (1..t - 1).any(|i| !way.to.is_discrete(i)) {
             return 0.0;
         }
         let kept_light = if s == 1 { way.to.kept_light } else { 1.0 };
-        growth(&way.from, s).probability(from, to) * way.to.share(to) * kept_light
+        // Where paths cannot be longer, it ends anyway.
+        let stopping = if t == most(&way.to, s) {
+            1.0
+        } else {
+            way.to.vertex(t - 1).stopping(way.to.scene)
+        };
+        way.to.share(t) * kept_light * stopping
     }
 }

@@ -4,7 +4,7 @@ use super::super::super::paths::VerticesMut;
 use super::super::super::tile::{Queues, SceneRef, TilePlace};
 use super::super::draws::Draws;
 use crate::geometry::{RayOrigin, SegmentTarget};
-use crate::path::whole::{CameraVertices, KeptFromLight, LightVertices, WholeVertex, segment};
+use crate::path::whole::{CameraVertices, KeptFromLight, LightVertices, StopDepth, TO_JOINT, WholeVertex, segment};
 use crate::path::*;
 use crate::table::{Read, Rows, Write};
 use bevy_ecs::system::{Res, ResMut, SystemParam};
@@ -12,7 +12,8 @@ use bevy_ecs::system::{Res, ResMut, SystemParam};
 /// What mutations asked for, and what became of it.
 #[derive(SystemParam)]
 pub struct Made<'w, 's> {
-    camera_made: Read<'w, 's, CameraVertices, ChainTable>,
+    camera_made: Write<'w, 's, CameraVertices, ChainTable>,
+    stops: Read<'w, 's, StopDepth, ChainTable>,
     light_made: Read<'w, 's, LightVertices, ChainTable>,
     light_kept: Read<'w, 's, KeptFromLight, ChainTable>,
 }
@@ -33,7 +34,7 @@ pub fn join_paths(
     place: Res<TilePlace>,
     mut queues: ResMut<Queues>,
     draws: Draws,
-    made: Made,
+    mut made: Made,
     mut lengths: Write<PathLength, ChainTable>,
     mut proposed: Write<whole::ProposedEdges, ChainTable>,
     mut lights: Write<VertexLight, ProposalTable>,
@@ -42,15 +43,22 @@ pub fn join_paths(
 ) {
     let scene = &*scene.0;
     let draws = draws.columns(&place);
-    let (camera_made, light_made, light_kept) =
-        (made.camera_made.rows(), made.light_made.rows(), made.light_kept.rows());
+    let (camera_made, stops) = (made.camera_made.rows(), made.stops.rows());
+    let (light_made, light_kept) = (made.light_made.rows(), made.light_kept.rows());
     let (lengths, proposed, lights) = (lengths.rows(), proposed.rows(), lights.rows());
     let mut vertices = vertices.columns();
     let (chains, origins, targets) = (segments.chains.rows(), segments.origins.rows(), segments.targets.rows());
     queues.segments = 0;
     for chain in 0..place.chains as usize {
         proposed.put(chain, 0);
-        let (t, s) = (camera_made.at(chain), light_made.at(chain));
+        let (mut t, s) = (camera_made.at(chain), light_made.at(chain));
+        if t > 0 && stops.at(chain) & TO_JOINT != 0 {
+            t = lengths.at(chain) + 1;
+            // Its last vertex has to be one that it stopped at.
+            let stopped = t > 1 && vertices.at(place.vertex(chain, t - 1)).kind != VERTEX_DISCRETE;
+            t = if stopped { t } else { 0 };
+            camera_made.put(chain, t);
+        }
         if t == 0 || lengths.at(chain) != t - 1 {
             continue;
         }
