@@ -208,7 +208,7 @@ pub fn demonstrate() -> miette::Result<Shown> {
     let mut acceptance = 0.0;
     for (number, planned) in render.run.chains().mutations.iter().enumerate() {
         let count = (0..chainlight::chain::StateClass::LENGTHS)
-            .map(|length| statistics.of(number, length))
+            .map(|length| statistics.of_length(number, length))
             .fold(
                 Default::default(),
                 |a: chainlight::systems::chains::ProposalCount, b| a.plus(b),

@@ -208,7 +208,7 @@ pub const fn bootstrap_step(round: u64) -> u64 {
     round | 1 << 63
 }
 
-/// What came of the proposals of one mutation in states of one length.
+/// What came of the proposals of one mutation in states of one length, or one signature.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct ProposalCount {
     /// Proposals made.
@@ -237,6 +237,9 @@ pub const BATCHES: usize = 16;
 
 /// Classes that visits are counted by: blocks, then lengths, then signatures.
 pub const VISIT_CLASSES: usize = StateClass::BLOCKS + StateClass::LENGTHS + StateClass::SIGNATURES;
+
+/// Classes that proposals are counted by: lengths, then signatures of the states that were left.
+const PROPOSAL_CLASSES: usize = StateClass::LENGTHS + StateClass::SIGNATURES;
 
 /// The classes of a state, numbered as [`ChainStatistics::visits`] counts them.
 #[inline]
@@ -317,7 +320,7 @@ impl GroupPlace {
 /// What a tile's chains have tried and where they have been. Counts only: they add up in any order.
 #[derive(Resource, Clone, Debug, PartialEq, Eq)]
 pub struct ChainStatistics {
-    /// By mutation, then by length of the state that was left.
+    /// By mutation, then by class of the state that was left: its length, and its signature.
     pub proposals: Vec<ProposalCount>,
     /// By batch, then by class: steps after which a chain was there.
     pub visits: Vec<u64>,
@@ -330,7 +333,7 @@ impl ChainStatistics {
     #[must_use]
     pub fn new(mutations: usize) -> Self {
         Self {
-            proposals: vec![ProposalCount::default(); mutations * StateClass::LENGTHS],
+            proposals: vec![ProposalCount::default(); mutations * PROPOSAL_CLASSES],
             visits: vec![0; BATCHES * VISIT_CLASSES],
             independent: WeightTally::default(),
         }
@@ -339,13 +342,13 @@ impl ChainStatistics {
     /// Counts what mutation `number` came to in a state of class `left`.
     #[inline]
     pub fn book(&mut self, number: usize, left: StateClass, accepted: bool, impossible: bool) {
-        if let Some(count) = self
-            .proposals
-            .get_mut(number * StateClass::LENGTHS + left.length_class())
-        {
-            count.proposed += 1;
-            count.accepted += u64::from(accepted);
-            count.impossible += u64::from(impossible);
+        let signature = StateClass::LENGTHS + left.signature().number() % StateClass::SIGNATURES;
+        for class in [left.length_class(), signature] {
+            if let Some(count) = self.proposals.get_mut(number * PROPOSAL_CLASSES + class) {
+                count.proposed += 1;
+                count.accepted += u64::from(accepted);
+                count.impossible += u64::from(impossible);
+            }
         }
     }
 
@@ -371,9 +374,28 @@ impl ChainStatistics {
 
     /// What came of mutation `number` in states of a length.
     #[must_use]
-    pub fn of(&self, number: usize, length: usize) -> ProposalCount {
-        let entry = self.proposals.get(number * StateClass::LENGTHS + length);
+    pub fn of_length(&self, number: usize, length: usize) -> ProposalCount {
+        self.of_class(number, length)
+    }
+
+    /// What came of mutation `number` in states of the signature of this number.
+    #[must_use]
+    pub fn of_signature(&self, number: usize, signature: usize) -> ProposalCount {
+        self.of_class(number, StateClass::LENGTHS + signature)
+    }
+
+    fn of_class(&self, number: usize, class: usize) -> ProposalCount {
+        let entry = self.proposals.get(number * PROPOSAL_CLASSES + class);
         entry.copied().unwrap_or_default()
+    }
+
+    /// What came of all mutations together.
+    #[must_use]
+    pub fn of_all(&self) -> ProposalCount {
+        let mutations = 0..self.proposals.len() / PROPOSAL_CLASSES;
+        mutations
+            .flat_map(|number| (0..StateClass::LENGTHS).map(move |length| self.of_length(number, length)))
+            .fold(ProposalCount::default(), ProposalCount::plus)
     }
 }
 

@@ -6,7 +6,7 @@ use crate::film::{BlockGrid, Film, GroupFilm};
 use crate::material::KINDS;
 use crate::path::bidirectional::Strategies;
 use crate::path::mis::Heuristic;
-use crate::path::{LIGHT_SUBPATH, VERTEX_DISCRETE, VERTEX_INFINITE, VERTEX_LENS};
+use crate::path::{LIGHT_SUBPATH, Sought, VERTEX_DISCRETE, VERTEX_INFINITE, VERTEX_LENS};
 use crate::plan::{Extent, TablePlan, TilePlan};
 use crate::sampling::StreamKey;
 use crate::scene::Scene;
@@ -63,7 +63,9 @@ pub struct TilePlace {
     pub first_coordinate: u32,
     /// How weights are made of densities where light that is met is weighed against sampling it.
     pub heuristic: Heuristic,
-    /// The fewest edges of a path that chains look for; shorter ones are left to another technique.
+    /// The light that paths look for; other light is left to another technique.
+    pub sought: Sought,
+    /// The fewest edges of a path that chains look for.
     pub shortest: u32,
     /// The most edges of a path, where they are fewer than the scene's.
     pub longest: u32,

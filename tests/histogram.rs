@@ -122,7 +122,7 @@ fn what_is_as_likely_both_ways_under_a_constant_target_is_always_taken() {
     let mut run = three_states::start(SEED).expect("the example's plan");
     run.burst(50, &|_| ());
     let statistics = run.statistics();
-    let taken: Vec<_> = (0..2).map(|mutation| statistics.of(mutation, 0)).collect();
+    let taken: Vec<_> = (0..2).map(|mutation| statistics.of_length(mutation, 0)).collect();
     assert_eq!(
         (taken[0].proposed, taken[1].proposed, taken[1].accepted),
         (0, 5000, 5000)

@@ -55,8 +55,8 @@ pub struct StrategyArgs {
     /// How the ways in which pt and bdpt find a path share it: power or balance [default: power]
     #[arg(long, value_name = "NAME")]
     pub heuristic: Option<Heuristic>,
-    /// Samples of direct light per pixel for every 100 mutations per pixel of mlt, and no fewer, by path tracing: light on paths of
-    /// at most 2 edges, which its chains then leave out. `chains` leaves it to them [default: 16, or chains behind a lens with an aperture]
+    /// Samples of direct light per pixel for every 100 mutations per pixel of mlt, by path tracing: light that the
+    /// camera sees itself or on a surface, be it in mirrors or through glass, which its chains then leave out. `chains` leaves it to them [default: 64, or chains behind a lens with an aperture]
     #[arg(long, value_name = "N")]
     pub direct: Option<Direct>,
 }

@@ -295,7 +295,7 @@ fn text(report: &Report<'_>) -> String {
     if let Some(direct) = &report.direct {
         let _ = writeln!(
             out,
-            "\ndirect light, which chains leave out: {}, paths of at most {} edges, {} samples per pixel for every \
+            "\ndirect light, which chains leave out: {}, paths of at most {} edges that scatter once at most but in mirrors and glass, {} samples per pixel for every \
              {PER_MUTATIONS} mutations per pixel",
             direct.technique, direct.longest, direct.samples_per_100_mutations
         );

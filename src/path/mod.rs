@@ -5,6 +5,7 @@
 
 pub mod bidirectional;
 mod columns;
+mod direct;
 mod draws;
 mod film_position;
 pub mod measure;
@@ -16,6 +17,7 @@ mod states;
 pub mod whole;
 
 pub use columns::*;
+pub use direct::{Sought, is_direct};
 pub use draws::{
     CoordinateSet, FilmCoordinates, KeyedDraws, LENS_CENTER, LIGHT_SUBPATH, LightDraw, PathDraws, VertexCoordinates,
 };

@@ -2,10 +2,11 @@
 //!
 //! Chains find bright light by walking there, which pays where light is hard to find. Direct light is not: a sample or two find
 //! it in every pixel, and chains would spend most of their states on it, where it is most of the picture. So it is rendered apart
-//! by path tracing of short paths, and the picture is the sum of both parts. Whether a path is direct light is told by one
-//! function, [`is_direct`]; where a technique with chains leaves it out, its shortest path is the first that is not.
+//! by path tracing, and the picture is the sum of both parts. Which paths bring it is told by one function,
+//! [`is_direct`](crate::path::is_direct). What is seen in mirrors and through glass belongs to it: a lamp in glass fills a few pixels
+//! with much light, where chains stay for longer than most renders take, and path tracing finds it as it finds the lamp itself.
 //!
-//! Samples are taken in proportion to mutations, so many per pixel for every hundred mutations per pixel, the first so many before
+//! Samples are taken in proportion to mutations, so many per pixel for every hundred mutations per pixel, the first few before
 //! the first step, as bootstraps are: of two or three samples of an edge of a lamp nobody could tell the error. But a fixed number
 //! would leave an error that no time makes smaller, and a [target](crate::render::Goal::target_error) would never be reached; and
 //! how many there are must not depend on a budget that nobody knows yet, or a render that was saved would go on to another picture.
@@ -13,42 +14,30 @@
 
 use super::path_tracing;
 use super::{EffectPlan, TilePlan};
+use crate::path::Sought;
 use crate::path::mis::Heuristic;
 use crate::scene::Scene;
 use std::fmt;
 use std::str::FromStr;
 
-/// Whether a path of so many edges is direct light: `EL`, light that the camera sees, or `EDL` and `ESL`, light that comes to it
-/// by way of one surface. This is the one place that tells it.
-#[must_use]
-pub const fn is_direct(edges: u32) -> bool {
-    edges <= 2
-}
-
-/// The most edges of a path of direct light.
-const LONGEST: u32 = {
-    let mut edges = 1;
-    while is_direct(edges + 1) {
-        edges += 1;
-    }
-    edges
-};
-
 /// Mutations per pixel for which [`Direct::Apart`] says how many samples there are.
 pub const PER_MUTATIONS: u64 = 100;
+
+/// Samples per pixel before the first step, where no fewer are [asked for](Direct::Apart).
+const FIRST: u32 = 16;
 
 /// Who renders direct light, for techniques with chains in path space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direct {
     /// The chains, as all other light.
     Chains,
-    /// Path tracing, with so many samples per pixel for every [`PER_MUTATIONS`] mutations per pixel, and no fewer; 2 at least.
+    /// Path tracing, with so many samples per pixel for every [`PER_MUTATIONS`] mutations per pixel; 2 at least.
     Apart(u32),
 }
 
 impl Default for Direct {
     fn default() -> Self {
-        Self::Apart(16)
+        Self::Apart(64)
     }
 }
 
@@ -62,7 +51,11 @@ impl Direct {
     /// with chains that does without any would not be one.
     #[must_use]
     pub const fn within(self, max_depth: u32) -> Self {
-        if is_direct(max_depth) { Self::Chains } else { self }
+        if max_depth < Sought::Indirect.shortest() {
+            Self::Chains
+        } else {
+            self
+        }
     }
 
     /// Who renders direct light of a scene where `asked` is to. If nobody is asked for, chains do behind a camera with an aperture: a
@@ -78,12 +71,12 @@ impl Direct {
         asked.unwrap_or(by_scene).within(scene.max_depth)
     }
 
-    /// The fewest edges of paths that chains look for.
+    /// The light that chains look for.
     #[must_use]
-    pub const fn shortest_of_chains(self) -> u32 {
+    pub const fn sought_by_chains(self) -> Sought {
         match self {
-            Self::Chains => 1,
-            Self::Apart(_) => LONGEST + 1,
+            Self::Chains => Sought::All,
+            Self::Apart(_) => Sought::Indirect,
         }
     }
 }
@@ -107,7 +100,7 @@ impl FromStr for Direct {
         match text.parse() {
             Ok(samples @ Self::FEWEST..=Self::MOST) => Ok(Self::Apart(samples)),
             _ => Err(format!(
-                "expected samples per pixel from {} to {}, such as 16, or `chains` to leave direct light to the chains",
+                "expected samples per pixel from {} to {}, such as 64, or `chains` to leave direct light to the chains",
                 Self::FEWEST,
                 Self::MOST
             )),
@@ -118,7 +111,7 @@ impl FromStr for Direct {
 /// How direct light is rendered beside chains.
 #[derive(Clone, Debug)]
 pub struct DirectPlan {
-    /// Samples per pixel for every [`PER_MUTATIONS`] mutations per pixel, and no fewer.
+    /// Samples per pixel for every [`PER_MUTATIONS`] mutations per pixel.
     pub samples: u32,
     /// What the worlds of its samples are built from.
     pub tile: TilePlan,
@@ -133,13 +126,20 @@ impl DirectPlan {
         heuristic: Heuristic,
         tile_size: Option<u32>,
     ) -> Self {
-        let longest = LONGEST.min(scene.max_depth);
+        // Without mirrors or glass, no path of direct light has more.
+        let materials = scene.materials.kinds();
+        let longest = if materials.iter().any(|kind| kind.has_discrete_lobe()) {
+            scene.max_depth
+        } else {
+            scene.max_depth.min(2)
+        };
         let mut tile = TilePlan::new(
             path_tracing::systems(scene, effects, longest),
             path_tracing::tables(scene, effects, longest),
             tile_size,
         );
         tile.longest = longest;
+        tile.sought = Sought::Direct;
         tile.heuristic = heuristic;
         Self { samples, tile }
     }
@@ -156,7 +156,7 @@ impl DirectPlan {
         let in_proportion = (u128::from(mutations) * u128::from(self.samples)).div_ceil(u128::from(PER_MUTATIONS));
         u64::try_from(in_proportion)
             .unwrap_or(u64::MAX)
-            .max(u64::from(self.samples) * u64::from(pixels))
+            .max(u64::from(self.samples.min(FIRST)) * u64::from(pixels))
     }
 }
 
@@ -165,16 +165,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_chains_leave_out_is_what_is_rendered_apart() {
+    fn chains_look_for_all_that_is_not_rendered_apart() {
         let apart = Direct::Apart(16);
         assert_eq!(
-            (apart.shortest_of_chains(), Direct::Chains.shortest_of_chains()),
-            (3, 1)
+            (apart.sought_by_chains(), Direct::Chains.sought_by_chains()),
+            (Sought::Indirect, Sought::All)
         );
-        for edges in 1..20 {
-            assert_eq!(is_direct(edges), edges < apart.shortest_of_chains(), "{edges}");
-            assert_eq!(is_direct(edges), edges <= LONGEST, "{edges}");
-        }
         assert_eq!((apart.within(2), apart.within(3)), (Direct::Chains, apart));
         assert_eq!(Direct::Chains.within(9), Direct::Chains);
     }
@@ -198,14 +194,14 @@ mod tests {
     #[test]
     fn samples_follow_mutations_and_never_go_back() {
         let plan = DirectPlan {
-            samples: 16,
+            samples: 64,
             tile: TilePlan::new(Vec::new(), Vec::new(), Some(16)),
         };
         let pixels = 1000;
         let per_pixel = |mutations: u64| plan.samples_after(mutations * u64::from(pixels), pixels) / u64::from(pixels);
-        assert_eq!([0, 1, 100, 125, 1000].map(per_pixel), [16, 16, 16, 20, 160]);
+        assert_eq!([0, 1, 25, 50, 1000].map(per_pixel), [16, 16, 16, 32, 640]);
         let counts: Vec<u64> = (0..200_000).map(|m| plan.samples_after(m, pixels)).collect();
-        assert!(counts.is_sorted() && counts[100_001] == 16_001);
-        assert_eq!(plan.samples_after(u64::MAX, 1), u64::MAX / 100 * 16 + 3);
+        assert!(counts.is_sorted() && counts[25_001] == 16_001);
+        assert_eq!(plan.samples_after(u64::MAX, 1), u64::MAX / 100 * 64 + 10);
     }
 }

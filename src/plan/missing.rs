@@ -95,11 +95,6 @@ pub(super) fn missing(scene: &Scene, technique: Technique, base: Base) -> Vec<Mi
     }
 }
 
-/// Whether a material has a lobe that is a single direction.
-fn has_discrete_lobe(kind: MaterialKind) -> bool {
-    kind.is_discrete() || kind == MaterialKind::Plastic
-}
-
 /// Light of points and single directions that comes to something matt by way of something smooth.
 struct Unmet {
     /// Of which lights, and by way of what, in words.
@@ -115,7 +110,7 @@ impl Unmet {
         let materials = 0..scene.materials.len() as u32;
         let smooth: Vec<u32> = materials
             .clone()
-            .filter(|&material| has_discrete_lobe(scene.materials.kind(material)))
+            .filter(|&material| scene.materials.kind(material).has_discrete_lobe())
             .collect();
         let is_matt_somewhere = materials.into_iter().any(|m| !scene.materials.kind(m).is_discrete());
         // The last of them have names of their own; emitting primitives are more than shapes that have names.

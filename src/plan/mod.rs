@@ -22,7 +22,7 @@ mod technique;
 mod tile;
 
 pub use chains::{ChainCounts, ChainPlanError, ChainSettings, StateSystems, chain_tile, choose_mutations};
-pub use direct::{Direct, DirectPlan, PER_MUTATIONS, is_direct};
+pub use direct::{Direct, DirectPlan, PER_MUTATIONS};
 pub use effect::{Effect, EffectPlan};
 pub use missing::Missing;
 pub use mutation::{
@@ -204,7 +204,8 @@ impl Plan {
                     mlt_reference::tile(states, &mutations, counts, &effects, options.tile_size)?
                 };
                 let by = Direct::in_scene(options.direct, scene);
-                tile.shortest = by.shortest_of_chains();
+                tile.sought = by.sought_by_chains();
+                tile.shortest = tile.sought.shortest();
                 if let Direct::Apart(samples) = by {
                     direct = Some(DirectPlan::new(
                         scene,

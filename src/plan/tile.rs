@@ -3,6 +3,7 @@
 
 use super::system::SystemPlan;
 use super::table::{Extent, TableId, TablePlan};
+use crate::path::Sought;
 use crate::path::mis::Heuristic;
 use crate::table::LANES;
 
@@ -44,6 +45,8 @@ pub struct TilePlan {
     pub subpaths: Subpaths,
     /// How weights are made of densities where light that is met is weighed against sampling it.
     pub heuristic: Heuristic,
+    /// The light that its paths look for.
+    pub sought: Sought,
     /// The fewest edges of a path that chains look for.
     pub shortest: u32,
     /// The most edges of a path, where they are fewer than the scene's.
@@ -81,6 +84,7 @@ impl TilePlan {
             reason: String::new(),
             subpaths,
             heuristic: Heuristic::default(),
+            sought: Sought::default(),
             shortest: 1,
             longest: u32::MAX,
         };

@@ -12,7 +12,6 @@ use crate::scene::Scene;
 use crate::stats::error::PictureError;
 use crate::stats::group_means::GroupMeans;
 use crate::systems::SystemCost;
-use crate::systems::chains::ProposalCount;
 use crate::systems::tile::{Counters, FilmBlocks, GroupFilmRef, SceneRef, StrategiesRef};
 use bevy_ecs::world::World;
 use std::sync::atomic::AtomicBool;
@@ -323,11 +322,7 @@ impl Rendering for ChainRender {
     }
 
     fn acceptance(&self) -> Option<f64> {
-        let statistics = self.run.statistics();
-        let all = statistics
-            .proposals
-            .iter()
-            .fold(ProposalCount::default(), |sum, count| sum.plus(*count));
+        let all = self.run.statistics().of_all();
         (all.proposed > 0).then(|| all.accepted as f64 / all.proposed as f64)
     }
 

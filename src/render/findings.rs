@@ -1,7 +1,7 @@
 //! What a render with chains tells of itself, beyond its picture: whether to believe it.
 
 use super::{ChainRender, DirectLight, Rendering};
-use crate::chain::{LongestRejections, StateClass};
+use crate::chain::{LongestRejections, Signature, StateClass};
 use crate::path::ChainTable;
 use crate::plan::{Effect, MutationPlan};
 use crate::stats::agreement::{Agreement, judge};
@@ -82,6 +82,8 @@ pub struct MutationFindings {
     pub count: ProposalCount,
     /// The same by length of the state that was left; lengths without proposals are left out.
     pub by_length: Vec<LengthFindings>,
+    /// The same by signature of the state that was left; signatures without proposals are left out.
+    pub by_signature: Vec<SignatureFindings>,
 }
 
 /// What came of a mutation in states of one length.
@@ -89,6 +91,16 @@ pub struct MutationFindings {
 pub struct LengthFindings {
     /// The length; the last stands for all longer ones.
     pub length: usize,
+    /// Its proposals.
+    #[serde(flatten)]
+    pub count: ProposalCount,
+}
+
+/// What came of a mutation in states of one signature.
+#[derive(Clone, Debug, Serialize)]
+pub struct SignatureFindings {
+    /// The signature's [name](Signature::name).
+    pub signature: String,
     /// Its proposals.
     #[serde(flatten)]
     pub count: ProposalCount,
@@ -270,10 +282,14 @@ fn of_mutation(all: &ChainStatistics, number: usize, planned: &MutationPlan) -> 
     let by_length: Vec<LengthFindings> = lengths
         .map(|length| LengthFindings {
             length,
-            count: all.of(number, length),
+            count: all.of_length(number, length),
         })
         .filter(|findings| findings.count.proposed > 0)
         .collect();
+    let by_signature = (0..StateClass::SIGNATURES).map(|signature| SignatureFindings {
+        signature: Signature::of_number(signature).name(),
+        count: all.of_signature(number, signature),
+    });
     MutationFindings {
         name: planned.mutation.name(),
         settings: planned.mutation.settings(),
@@ -281,6 +297,7 @@ fn of_mutation(all: &ChainStatistics, number: usize, planned: &MutationPlan) -> 
             .iter()
             .fold(ProposalCount::default(), |sum, f| sum.plus(f.count)),
         by_length,
+        by_signature: by_signature.filter(|findings| findings.count.proposed > 0).collect(),
     }
 }
 

@@ -14,7 +14,7 @@ use crate::scene::Scene;
 use std::fmt::Write;
 
 /// What a saved render begins with: its kind and version.
-const KIND: &[u8; 24] = b"chainlight saved render2";
+const KIND: &[u8; 24] = b"chainlight saved render3";
 
 /// Steps beyond this are those of no render, and would be keys of bootstraps.
 const LAST_STEP: u64 = 1 << 62;

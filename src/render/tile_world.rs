@@ -39,6 +39,7 @@ impl TileWorld {
             lights_from: plan.lights_from(),
             first_coordinate: plan.first_coordinate(),
             heuristic: plan.heuristic,
+            sought: plan.sought,
             shortest: plan.shortest,
             longest: plan.longest,
             step: 0,

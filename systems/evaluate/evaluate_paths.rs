@@ -110,7 +110,7 @@ impl FoundColumns<'_> {
         self.counts.put(chain, 0);
     }
 
-    /// Writes a chain's proposal; whether it can be taken.
+    /// Writes a chain's proposal, where there was [nothing](Self::nothing); whether it can be taken.
     pub fn put(&mut self, place: &TilePlace, blocks: &FilmBlocks, chain: usize, path: &FoundPath<'_>) -> bool {
         let FoundPath {
             value,
@@ -119,10 +119,13 @@ impl FoundColumns<'_> {
             light,
             seen,
         } = *path;
+        let form = PathForm { vertices };
+        if place.sought == Sought::Indirect && form.is_direct() {
+            return false;
+        }
         let target = target_of(value);
         self.targets.put(chain, target);
         let block = blocks.0.block_of(seen.pixel).unwrap_or(0) as u32;
-        let form = PathForm { vertices };
         self.classes.put(chain, form.class().in_block(block).0);
         if !(target > 0.0 && target.is_finite()) {
             return false;

@@ -69,7 +69,7 @@ fn both(case: &str, scene: &Arc<Scene>, chains: &Chains, tiles: [Option<u32>; 2]
     }
     let statistics = staged.run.statistics();
     for number in 0..staged.run.chains().mutations.len() {
-        let counts = (0..64).map(|length| statistics.of(number, length));
+        let counts = (0..64).map(|length| statistics.of_length(number, length));
         let sum = counts.reduce(|a, b| a.plus(b)).expect("lengths");
         assert!(
             sum.accepted > 0 && sum.accepted <= sum.proposed,

@@ -1,20 +1,20 @@
 //! Direct light beside chains in path space: chains leave out exactly what path tracing renders, and the picture, its errors and
 //! what is saved of it are those of both parts.
 
-use crate::support::chains::{Chains, column};
+use crate::support::chains::Chains;
 use crate::support::scenes::{compile, inline, shipped};
-use chainlight::chain::{Class, StateClass};
-use chainlight::color::Rgb;
+use chainlight::chain::StateClass;
 use chainlight::film::Picture;
-use chainlight::path::ChainTable;
-use chainlight::path::whole::{PathEdges, PathLight};
-use chainlight::plan::{Direct, Plan, PlanOptions, StateSpace, Technique, is_direct};
+use chainlight::path::whole::{PathEdges, PathLight, PathTable};
+use chainlight::path::{ChainTable, VERTEX_DISCRETE, VertexKind, is_direct};
+use chainlight::plan::{Direct, Plan, PlanOptions, StateSpace, Technique};
 use chainlight::render::{
     Budget, ChainRender, DirectLight, Findings, Render, RenderError, Rendering, SavedRenderError, drive, error_blocks,
     resume,
 };
 use chainlight::sampling::StreamKey;
 use chainlight::scene::{Scene, SceneOverrides, flatten, read_scene};
+use chainlight::systems::tile::TilePlace;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -38,12 +38,20 @@ fn run(scene: &Arc<Scene>, direct: Direct, steps: u64) -> ChainRender {
     render
 }
 
-/// Lengths of the chains' states.
-fn lengths(render: &ChainRender) -> Vec<u32> {
-    column::<Class>(render)
-        .into_iter()
-        .map(|class| StateClass(class).length())
-        .collect()
+/// Of every chain's state, whether its light is direct.
+fn are_direct(render: &ChainRender) -> Vec<bool> {
+    let mut all = Vec::new();
+    render.run.for_each_tile(&mut |chains, tile| {
+        let place = *tile.world().resource::<TilePlace>();
+        let edges = tile.all::<PathEdges, ChainTable>();
+        let kinds = tile.all::<VertexKind, PathTable>();
+        all.extend((0..chains.len()).map(|chain| {
+            is_direct(edges[chain] as usize, |i| {
+                kinds[place.path_vertex(chain, i)] == VERTEX_DISCRETE
+            })
+        }));
+    });
+    all
 }
 
 #[test]
@@ -51,7 +59,7 @@ fn chains_are_in_no_state_of_direct_light_unless_it_is_left_to_them() {
     for name in ["cornell-glass.ron", "island.ron"] {
         let scene = shipped(name, SIZE);
         let apart = run(&scene, Direct::default(), 16);
-        assert!(lengths(&apart).into_iter().all(|length| !is_direct(length)), "{name}");
+        assert!(are_direct(&apart).into_iter().all(|direct| !direct), "{name}");
         let statistics = apart.run.statistics();
         for visits in statistics
             .visits
@@ -62,7 +70,7 @@ fn chains_are_in_no_state_of_direct_light_unless_it_is_left_to_them() {
         }
         let all = run(&scene, Direct::Chains, 16);
         assert!(all.direct().is_none());
-        assert!(lengths(&all).into_iter().any(is_direct), "{name}");
+        assert!(are_direct(&all).into_iter().any(|direct| direct), "{name}");
     }
 }
 
@@ -86,11 +94,11 @@ fn path_traced(name: &str, seed: u64, steps: u64) -> Picture {
     render.picture()
 }
 
-/// To the last bit, by a seed of its own.
+/// To the last bit, by a seed of its own: where nothing is a mirror or clear.
 #[test]
 fn direct_light_is_that_of_path_tracing_of_two_edges() {
     for name in [
-        "cornell-glass.ron",
+        "cornell-box.ron",
         "cornell-window.ron",
         "island.ron",
         "depth-of-field.ron",
@@ -212,7 +220,7 @@ fn what_was_saved_goes_on_and_what_no_render_saves_is_refused() {
         };
         assert_eq!(
             (name.as_str(), saved.as_str(), own),
-            ("--direct", "16", other.to_string())
+            ("--direct", "64", other.to_string())
         );
     }
     // States that are longer than paths are, or end on lights that there are not.
@@ -248,24 +256,32 @@ fn what_was_saved_goes_on_and_what_no_render_saves_is_refused() {
     }
 }
 
-/// A lamp in the void: there is no other light than what is seen of it.
+/// A lamp in the void, or in glass: there is no other light than what is seen of it.
 const LAMP: &str = r#"(version: 1, camera: Perspective(origin: (0, 0, 5), target: (0, 0, 0), fov: 30),
     film: (width: 10, height: 10), materials: {"m": Diffuse(reflectance: (0, 0, 0))},
     shapes: [(shape: Sphere(radius: 1), material: "m", emission: (3, 2, 1))])"#;
 
 #[test]
 fn light_that_is_all_direct_needs_no_chains() {
-    let scene = inline(LAMP, SIZE);
-    let render = run(&scene, Direct::default(), 8);
-    let picture = render.picture();
-    assert_eq!(picture.rgb, direct(&render).picture().rgb);
-    assert!(picture.rgb.contains(&Rgb::new(3.0, 2.0, 1.0)));
-    assert!(render.error().is_some_and(|error| error.rms.is_finite()));
-    let warnings = Findings::of(&render).warnings();
-    assert!(
-        matches!(&warnings[..], [only] if only.contains("found light that is not direct") && !only.contains("black")),
-        "{warnings:?}"
-    );
+    let in_glass = LAMP
+        .replace("materials: {", "materials: { \"g\": Dielectric(interior_ior: 1.5),")
+        .replace("shapes: [", "shapes: [(shape: Sphere(radius: 1.2), material: \"g\"),");
+    for (text, longest) in [(LAMP, 2), (&in_glass, 16)] {
+        let scene = inline(text, SIZE);
+        let render = run(&scene, Direct::default(), 8);
+        let plan = render.plan().direct.as_ref().expect("rendered apart");
+        assert_eq!(plan.longest(), longest);
+        let picture = render.picture();
+        assert_eq!(picture.rgb, direct(&render).picture().rgb);
+        let [r, g, _] = picture.rgb[5 * SIZE as usize + 5].to_array();
+        assert!((r / g - 1.5).abs() < 1e-5 && (longest > 2 || r == 3.0), "{r} {g}");
+        assert!(render.error().is_some_and(|error| error.rms.is_finite()));
+        let warnings = Findings::of(&render).warnings();
+        assert!(
+            matches!(&warnings[..], [only] if only.contains("found light that is not direct") && !only.contains("black")),
+            "{warnings:?}"
+        );
+    }
 }
 
 /// Two rooms with a door ajar between them: hardly any light is direct.

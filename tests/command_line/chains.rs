@@ -258,12 +258,12 @@ fn direct_light_beside_chains_is_told_everywhere() {
     let samples = apart["direct_samples_per_pixel"].as_f64().expect("a number");
     let mutations = apart["samples_per_pixel"].as_f64().expect("a number");
     assert!(
-        mutations >= 150.0 && (samples - 0.16 * mutations).abs() < 0.01,
+        mutations >= 150.0 && (samples - 0.64 * mutations).abs() < 0.01,
         "{samples}"
     );
     let settings = apart["settings"].as_str().expect("text");
     assert!(
-        settings.ends_with(" direct=16") && !settings.contains("base="),
+        settings.ends_with(" direct=64") && !settings.contains("base="),
         "{settings}"
     );
     let metadata = chainlight::film::read_exr(&folder.path().join("a.exr"))
@@ -287,7 +287,7 @@ fn direct_light_beside_chains_is_told_everywhere() {
         succeed(&[&arguments[..], more].concat(), folder.path())
     };
     let plan = shown("plan", &[]);
-    assert!(plan.contains("direct light, which chains leave out: pt, paths of at most 2 edges, 16 samples per pixel"));
+    assert!(plan.contains("direct light, which chains leave out: pt, paths of at most 24 edges that scatter once at most but in mirrors and glass, 64 samples per pixel"));
     assert!(plan.contains("connect_lights") && plan.contains("evaluate_paths"));
     let json: Value = serde_json::from_str(&shown("plan", &["--json", "--direct", "5"])).expect("JSON");
     assert_eq!(json["direct"]["samples_per_100_mutations"].as_u64(), Some(5));
@@ -341,8 +341,8 @@ fn a_saved_render_of_paths_goes_on_with_its_own_direct_light_alone() {
         &saved,
     ];
     for (direct, told) in [
-        ("chains", "--direct is 16 there, and chains here"),
-        ("17", "--direct is 16 there, and 17 here"),
+        ("chains", "--direct is 64 there, and chains here"),
+        ("17", "--direct is 64 there, and 17 here"),
     ] {
         let error = fail(&[&arguments[..], &["--direct", direct]].concat());
         assert!(error.contains(told), "{error}");

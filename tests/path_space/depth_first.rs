@@ -65,7 +65,11 @@ fn both(case: &str, scene: &Arc<Scene>, chains: &Chains) -> Vec<u64> {
         assert_same(&format!("{case}, {} steps", staged.steps()), &staged, &depth_first);
     }
     let statistics = staged.run.statistics();
-    let taken = |number| (0..64).map(|length| statistics.of(number, length).accepted).sum();
+    let taken = |number| {
+        (0..64)
+            .map(|length| statistics.of_length(number, length).accepted)
+            .sum()
+    };
     (0..staged.run.chains().mutations.len()).map(taken).collect()
 }
 

@@ -28,11 +28,12 @@ fn measure_again(
     shares: Read<PathShare, PathTable>,
     onwards: Read<PathOnward, PathTable>,
     backs: Read<PathBack, PathTable>,
+    kept_lights: Read<PathKeptLight, ChainTable>,
     mut targets: Write<ProposedTarget, ChainTable>,
 ) {
     let (edges, lights, vertices) = (edges.rows(), lights.rows(), vertices.columns());
     let (shares, onwards, backs) = (shares.rows(), onwards.rows(), backs.rows());
-    let targets = targets.rows();
+    let (kept_lights, targets) = (kept_lights.rows(), targets.rows());
     let mut measured = Measured::default();
     for chain in 0..place.chains as usize {
         let rows: Vec<usize> = (0..=edges.at(chain) as usize)
@@ -51,6 +52,7 @@ fn measure_again(
                 && onwards.at(row).to_bits() == passage.onward.to_bits()
                 && backs.at(row).to_bits() == passage.back.to_bits()
         });
+        let kept = kept && kept_lights.at(chain) == measured.kept_light;
         let target = value.filter(|_| kept).map_or(f32::NAN, chainlight::path::target_of);
         targets.put(chain, target);
     }

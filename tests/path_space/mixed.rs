@@ -9,7 +9,8 @@ use crate::support::render::{mean, picture};
 use crate::support::scenes::as_written;
 use crate::support::verdict::Family;
 use chainlight::chain::{Class, StateClass};
-use chainlight::plan::Technique;
+use chainlight::plan::{Direct, Technique};
+use chainlight::render::{ChainRender, Rendering};
 use chainlight::scene::Scene;
 use chainlight::stats::z_test::Estimate;
 use std::sync::Arc;
@@ -52,24 +53,28 @@ fn kind(class: u32) -> Option<usize> {
     }
 }
 
-/// The light of every kind that chains in path space say there is.
-fn by_chains() -> Vec<Estimate> {
+/// The light of every one of so many kinds that chains in path space say there is.
+fn by_chains(kinds: usize, kind: impl Fn(u32) -> Option<usize>) -> Vec<Estimate> {
     let scene = scene(DEPTH, 1.0, 0.6);
-    let mut values = vec![Vec::new(); KINDS.len()];
+    let mut values = vec![Vec::new(); kinds];
     for seed in 1..=RUNS {
         let render = paths(1, 2048, 1 << 16).seeded(seed).run(&scene, 20);
-        let b: f64 = render.run.normalizations().iter().sum();
-        let mut counts = [0_u32; KINDS.len()];
         let classes = column::<Class>(&render);
+        let mut counts = vec![0_u32; kinds];
         for kind in classes.iter().filter_map(|&class| kind(class)) {
             counts[kind] += 1;
         }
         for (values, count) in values.iter_mut().zip(counts) {
-            // Targets count all three channels.
-            values.push(b / 3.0 * f64::from(count) / classes.len() as f64);
+            values.push(all_light(&render) * f64::from(count) / classes.len() as f64);
         }
     }
     values.iter().map(|values| Estimate::of(values)).collect()
+}
+
+/// The mean over the film and its channels of the light that one group of chains looks for.
+fn all_light(render: &ChainRender) -> f64 {
+    // Targets count all three channels.
+    render.run.normalizations().iter().sum::<f64>() / 3.0
 }
 
 /// The light of every kind as differences of pictures: with coat or base alone, with one edge less.
@@ -97,12 +102,61 @@ fn by_path_tracing() -> Vec<Estimate> {
 #[test]
 fn light_by_what_coated_surfaces_did_is_what_it_is_without_chains() {
     let family = Family { tests: KINDS.len() };
-    for ((name, chains), traced) in KINDS.into_iter().zip(by_chains()).zip(by_path_tracing()) {
+    for ((name, chains), traced) in KINDS
+        .into_iter()
+        .zip(by_chains(KINDS.len(), kind))
+        .zip(by_path_tracing())
+    {
         let both = Estimate {
             error: libm::hypot(chains.error, traced.error),
             ..chains
         };
         family.is(name, both, traced.mean, 0.0, 0.3);
         family.is_not(&format!("{name}, 40 % off"), both, 1.4 * traced.mean, 0.0);
+    }
+}
+
+/// On which side of the line between direct light and other light a path is depends on what it did at coated surfaces.
+#[test]
+fn direct_light_apart_is_that_of_direct_paths_and_chains_have_the_rest() {
+    let name = |class: u32| StateClass(class).signature().name();
+    let sides = by_chains(3, |class| match name(class).as_str() {
+        "EL" | "EDL" | "ESL" | "ESSL" => Some(0),
+        "ESDL" => Some(1),
+        "EDDL" | "EDSL" => Some(2),
+        other => panic!("{other}"),
+    });
+    let scene = scene(DEPTH, 1.0, 0.6);
+    let mut chains = paths(1, 2048, 1 << 16);
+    let mut indirect = Vec::new();
+    for seed in RUNS + 1..=2 * RUNS {
+        chains.options.direct = Some(Direct::Apart(100));
+        let render = chains.seeded(seed).run(&scene, 20);
+        assert!(
+            column::<Class>(&render)
+                .into_iter()
+                .all(|class| matches!(name(class).as_str(), "EDDL" | "EDSL"))
+        );
+        indirect.push(all_light(&render));
+    }
+    chains.options.direct = Some(Direct::Apart(40_000));
+    let apart = chains.start(&scene);
+    let direct = mean(&apart.direct().expect("rendered apart").picture(), 0, |_, _| true);
+    let rest = Estimate::of(&indirect);
+    // The errors of both.
+    let held = |of: Estimate, by: &[Estimate]| Estimate {
+        error: by.iter().fold(of.error, |error, by| libm::hypot(error, by.error)),
+        ..of
+    };
+    let sum = |of: &[Estimate]| of.iter().map(|of| of.mean).sum::<f64>();
+    let family = Family { tests: 2 };
+    for (name, of, by) in [("direct", direct, 0..2), ("the rest", rest, 2..3)] {
+        family.is(name, held(of, &sides[by.clone()]), sum(&sides[by]), 0.0, 0.1);
+    }
+    for (name, of, by) in [
+        ("direct on the first surface alone", direct, 0..1),
+        ("what mirrors show left to chains", rest, 1..3),
+    ] {
+        family.is_not(name, held(of, &sides[by.clone()]), sum(&sides[by]), 0.0);
     }
 }

@@ -55,7 +55,7 @@ fn coordinates<T: Table>(world: &mut TileWorld, depth: u32, chain: usize, capaci
     (0..depth).map(&mut at).collect()
 }
 
-fn splats<T: Table>(world: &mut TileWorld, count: u32, chain: usize, capacity: usize) -> Vec<(u32, [u32; 3])> {
+pub fn splats<T: Table>(world: &mut TileWorld, count: u32, chain: usize, capacity: usize) -> Vec<(u32, [u32; 3])> {
     let mut at = |k: u32| {
         let index = k as usize * capacity + chain;
         let color = world.at::<SplatColor, T>(index).expect("a column");
@@ -66,7 +66,7 @@ fn splats<T: Table>(world: &mut TileWorld, count: u32, chain: usize, capacity: u
 }
 
 /// Lets `look` see the world of `chain`, with the chain's number in it.
-fn visit(render: &ChainRender, chain: u32, look: &mut dyn FnMut(&mut TileWorld, usize)) {
+pub fn visit(render: &ChainRender, chain: u32, look: &mut dyn FnMut(&mut TileWorld, usize)) {
     let mut found = 0;
     render.run.for_each_tile(&mut |range, world| {
         if range.contains(&chain) {
@@ -124,7 +124,7 @@ fn bits(coordinates: &[Coordinates]) -> Vec<VertexCoordinates> {
     coordinates.iter().map(|vertex| vertex.bits).collect()
 }
 
-fn splat_bits(splats: &[SplatAt], width: u32) -> Vec<(u32, [u32; 3])> {
+pub fn splat_bits(splats: &[SplatAt], width: u32) -> Vec<(u32, [u32; 3])> {
     let bits = |s: &SplatAt| (s.pixel[1] * width + s.pixel[0], s.color.to_array().map(f32::to_bits));
     splats.iter().map(bits).collect()
 }

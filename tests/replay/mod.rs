@@ -2,6 +2,7 @@
 
 mod chains;
 mod command;
+mod paths;
 mod refusals;
 mod samples;
 
@@ -21,8 +22,13 @@ fn scene() -> Arc<Scene> {
     crate::support::scenes::shipped("cornell-glass.ron", SIZE)
 }
 
-/// A few small groups of chains, whose number no tile size divides.
+/// A few small groups of chains of `pssmlt`, whose number no tile size divides.
 fn plan(scene: &Scene, tile_size: Option<u32>, densities: bool) -> Plan {
+    plan_of(Technique::Pssmlt, scene, tile_size, densities)
+}
+
+/// The same of any technique with chains.
+fn plan_of(technique: Technique, scene: &Scene, tile_size: Option<u32>, densities: bool) -> Plan {
     let options = PlanOptions {
         tile_size,
         chains: ChainSettings {
@@ -33,7 +39,7 @@ fn plan(scene: &Scene, tile_size: Option<u32>, densities: bool) -> Plan {
         },
         ..PlanOptions::default()
     };
-    Plan::with(scene, Technique::Pssmlt, &options).expect("the crate's mutations make a plan")
+    Plan::with(scene, technique, &options).expect("the crate's mutations make a plan")
 }
 
 /// The replay of a moment.
