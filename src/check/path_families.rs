@@ -6,7 +6,7 @@ use crate::path::whole::{
     PathEdges, PathFilm, PathLight, PathShare, PathTable, ProposedEdges, ProposedLight, ProposedPathFilm,
     ProposedPathTable, camera_vertices,
 };
-use crate::path::{ChainTable, VERTEX_DISCRETE, VertexKind, VertexPosition};
+use crate::path::{ChainTable, VERTEX_DISCRETE, VERTEX_INFINITE, VertexKind, VertexPosition};
 use crate::plan::TilePlan;
 use crate::render::TileWorld;
 use crate::scene::Scene;
@@ -134,8 +134,11 @@ fn joined_edges() -> Family {
             let path = Path { paths: &paths, chain };
             let t = path.camera_vertices();
             *to = NOWHERE;
-            // Of a path that ends where the camera's subpath does, there is no such edge.
+            // Of a path that ends where the camera's subpath does there is no such edge, and none whose end is nowhere has a length.
             if t <= paths.edges[chain] as usize
+                && [t - 1, t]
+                    .iter()
+                    .all(|&i| paths.kinds.get(path.row(i)) != Some(&VERTEX_INFINITE))
                 && let (Some(x), Some(y)) = (positions.get(path.row(t - 1)), positions.get(path.row(t)))
             {
                 let length = x.as_dvec3().distance(y.as_dvec3());

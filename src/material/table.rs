@@ -32,6 +32,12 @@ macro_rules! define {
                 match self { $(Self::$Kind => $discrete),* }
             }
 
+            /// Whether the model has a lobe that is a single direction, beside others or alone.
+            #[must_use]
+            pub const fn has_discrete_lobe(self) -> bool {
+                self.is_discrete() || matches!(self, Self::Plastic)
+            }
+
             /// Whether the model needs a number of its own to choose between its lobes.
             #[must_use]
             pub const fn chooses_lobes(self) -> bool {

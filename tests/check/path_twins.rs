@@ -98,19 +98,39 @@ twin! {
     }
 }
 twin! {
+    /// T without the probability of stopping on surfaces that are matt and mirror at once.
+    WithoutStopping, LensSubpath, "twin without stopping", |twin, way| {
+        let (s, edges) = (way.kept[1], way.to.edges);
+        let stopping = if edges == way.to.longest() {
+            1.0
+        } else {
+            way.to.vertex(edges - s).stopping(way.to.scene)
+        };
+        twin.0.density(way) / stopping
+    }
+}
+twin! {
     /// T without the densities of the directions that it does not draw.
     WithoutDirections, CausticPerturbation, "twin without directions", |twin, way| {
         let start = way.from.edges + 1 - way.kept[1];
-        let steered: f64 = (2..=start).map(|i| way.to.back(i)).product();
-        twin.0.density(way) * steered
+        let lobes: f64 = (2..start).map(|i| way.to.onward(i)).product();
+        twin.0.density(way) * lobes * way.to.back(start)
+    }
+}
+twin! {
+    /// T as if the ratio of solid angles where light is refracted were a part of the lobe's probability.
+    WithSolidAngles, CausticPerturbation, "twin with solid angles", |twin, way| {
+        let start = way.from.edges + 1 - way.kept[1];
+        let angles: f64 = (2..start).map(|i| way.to.back(i) / way.to.onward(i)).product();
+        twin.0.density(way) / angles
     }
 }
 twin! {
     /// T that forgets that a step must be one of those that lead back.
     WithoutWayBack, CausticPerturbation, "twin without a way back", |_twin, way| {
         let start = way.from.edges + 1 - way.kept[1];
-        let steered: f64 = (2..=start).map(|i| way.to.back(i)).product();
-        way.to.share(1) / steered
+        let lobes: f64 = (2..start).map(|i| way.to.onward(i)).product();
+        way.to.share(1) / (lobes * way.to.back(start))
     }
 }
 twin! {

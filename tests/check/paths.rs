@@ -127,6 +127,27 @@ fn a_lens_subpath_that_forgets_how_its_light_is_chosen_fails() {
     is_refused(&[], WithoutKeptLight::default(), &inline(text, 12), &options);
 }
 
+/// A coated floor that is seen from above and along it, where it is a mirror.
+#[test]
+fn a_lens_subpath_that_forgets_how_likely_it_is_to_stop_fails() {
+    let text = r#"(version: 1, settings: (max_depth: 4),
+        camera: Perspective(origin: (0, 0.5, 2), target: (0, 0, 0), fov: 100),
+        film: (width: 12, height: 12),
+        materials: {
+            "coat": Plastic(interior_ior: 2.2, diffuse_reflectance: (0.7, 0.7, 0.7)),
+            "lamp": Diffuse(reflectance: (0, 0, 0)),
+        },
+        shapes: [
+            (shape: Quad(corner: (-9, 0, 3), edge_u: (18, 0, 0), edge_v: (0, 0, -18)), material: "coat"),
+            (shape: Quad(corner: (-9, 4, 3), edge_u: (0, 0, -18), edge_v: (18, 0, 0)), material: "lamp", emission: (1, 1, 1)),
+        ])"#;
+    let options = Options {
+        direct: Direct::Chains,
+        ..patient()
+    };
+    is_refused(&[], WithoutStopping::default(), &inline(text, 12), &options);
+}
+
 #[test]
 fn a_caustic_perturbation_that_forgets_the_density_of_directions_fails() {
     let options = Options {
@@ -136,6 +157,31 @@ fn a_caustic_perturbation_that_forgets_the_density_of_directions_fails() {
     };
     let settings = ["caustic:smallest=1,covered=1"];
     is_refused(&settings, WithoutDirections::default(), &room_of_light(), &options);
+}
+
+/// A lamp above water and to a side, a floor below, and the camera in it: solid angles shrink where light enters, the more the more
+/// slanting.
+#[test]
+fn a_caustic_perturbation_that_takes_solid_angles_for_probabilities_fails() {
+    let text = r#"(version: 1, settings: (max_depth: 3),
+        camera: Perspective(origin: (0, -0.2, 0), target: (0, -1, 0), up: (1, 0, 0), fov: 140),
+        film: (width: 12, height: 12),
+        materials: {
+            "water": Dielectric(interior_ior: 1.33),
+            "floor": Diffuse(reflectance: (0.7, 0.7, 0.7)),
+            "lamp": Diffuse(reflectance: (0, 0, 0)),
+        },
+        shapes: [
+            (shape: Quad(corner: (-20, 0, 20), edge_u: (40, 0, 0), edge_v: (0, 0, -40)), material: "water"),
+            (shape: Quad(corner: (-20, -1, 20), edge_u: (40, 0, 0), edge_v: (0, 0, -40)), material: "floor"),
+            (shape: Quad(corner: (4, 2, 0.5), edge_u: (0, 0, -1), edge_v: (1, 0, 0)), material: "lamp", emission: (1, 1, 1)),
+        ])"#;
+    let options = Options {
+        direct: Direct::Chains,
+        ..patient()
+    };
+    let settings = ["caustic:smallest=1,covered=1"];
+    is_refused(&settings, WithSolidAngles::default(), &inline(text, 12), &options);
 }
 
 #[test]
@@ -150,10 +196,12 @@ fn a_caustic_perturbation_whose_steps_do_not_lead_back_fails() {
 fn a_density_without_the_probability_of_choosing_the_mutation_fails() {
     let options = Options {
         among_all: true,
+        direct: Direct::Chains,
+        steps: vec![64],
         ..patient()
     };
     // Where there is a caustic, the others are chosen the less often.
-    let settings = ["caustic:weight=20"];
+    let settings = ["caustic:weight=8"];
     let scene = built_in_scene().expect("a scene");
     is_refused(&settings, WithoutChoices::default(), &scene, &options);
 }

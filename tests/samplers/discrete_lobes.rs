@@ -132,3 +132,23 @@ fn probabilities_of_discrete_lobes_are_those_of_all_that_can_be_drawn() {
         }
     }
 }
+
+/// What is said of a kind of material decides where subpaths end and how long direct light's paths are.
+#[test]
+fn kinds_of_materials_say_whether_they_have_discrete_lobes() {
+    let scene = scene();
+    let materials = &scene.materials;
+    let mut kinds = [0, 0];
+    for material in 0..materials.len() as u32 {
+        let wi = Vec3::new(0.6, 0.0, 0.8);
+        let found = [DiscreteLobe::Reflection, DiscreteLobe::Refraction]
+            .into_iter()
+            .any(|lobe| {
+                let scattered = materials.discrete(material, Vec2::ZERO, wi, lobe, Transport::Radiance);
+                scattered.is_some()
+            });
+        assert_eq!(found, materials.kind(material).has_discrete_lobe(), "{material}");
+        kinds[usize::from(found)] += 1;
+    }
+    assert!(kinds.into_iter().all(|number| number > 2), "{kinds:?}");
+}

@@ -76,6 +76,10 @@ impl Scaled {
     #[must_use]
     pub fn over(self, other: Self) -> f64 {
         let ratio = self.mantissa / other.mantissa;
+        if self.mantissa == 0.0 || other.mantissa == 0.0 {
+            // Whatever the other's exponent.
+            return ratio;
+        }
         let exponent = self.exponent - other.exponent;
         if exponent > MOST {
             return ratio * f64::INFINITY;
@@ -122,6 +126,8 @@ mod tests {
             (zero.times(1e300).over(Scaled::ONE), Scaled::ONE.over(zero)),
             (0.0, f64::INFINITY)
         );
+        let small = Scaled::new(1e-300).times(1e-300);
+        assert_eq!((zero.over(small), small.over(zero)), (0.0, f64::INFINITY));
         assert!(zero.over(zero).is_nan() && Scaled::new(f64::NAN).times(2.0).over(Scaled::ONE).is_nan());
         assert_eq!(Scaled::new(f64::INFINITY).over(Scaled::ONE), f64::INFINITY);
         assert!(Scaled::ONE.exceeds(zero) && !zero.exceeds(Scaled::ONE) && !zero.exceeds(zero));

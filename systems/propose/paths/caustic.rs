@@ -4,7 +4,7 @@
 //!
 //! | setting | meaning | unit | default | others use |
 //! |---|---|---|---|---|
-//! | `weight` | how often it is tried, relative to the other mutations, where it is suitable | | 1 | 1 |
+//! | `weight` | how often it is tried, relative to the other mutations, where it is suitable | | 2 | 1 |
 //! | `smallest` | the smallest step that is seen on the film, about | pixels | 0.1 | 0.1 |
 //! | `covered` | share of the film that a disc of the largest step covers, about | | 0.05 | 0.05 |
 //!
@@ -39,7 +39,7 @@ pub struct CausticPerturbation {
 impl Default for CausticPerturbation {
     fn default() -> Self {
         Self {
-            weight: 1.0,
+            weight: 2.0,
             smallest: 0.1,
             covered: 0.05,
         }
@@ -150,8 +150,9 @@ impl MovesPaths for CausticPerturbation {
             return 0.0;
         }
         // The direction in which light leaves, drawn about another and as likely one way as the other, stands in for the density of
-        // bidirectional path tracing, as does the certainty of discrete lobes.
-        let steered: f64 = (2..=start).map(|i| way.to.back(i)).product();
-        way.to.share(1) / steered
+        // bidirectional path tracing, as does the certainty of discrete lobes: theirs are probabilities, the same both ways. What
+        // `back` has beside them where light is refracted, a ratio of solid angles, is part of all strategies' measure.
+        let lobes: f64 = (2..start).map(|i| way.to.onward(i)).product();
+        way.to.share(1) / (lobes * way.to.back(start))
     }
 }

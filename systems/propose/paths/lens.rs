@@ -4,7 +4,7 @@
 //!
 //! | setting | meaning | unit | default | others use |
 //! |---|---|---|---|---|
-//! | `weight` | how often it is tried, relative to the other mutations, where it is suitable | | 1 | 1 |
+//! | `weight` | how often it is tried, relative to the other mutations, where it is suitable | | 2 | 1 |
 //! | `smallest` | the smallest step on the film | pixels | 0.1 | 0.1 |
 //! | `covered` | share of the film that a disc of the largest step covers | | 0.05 | 0.05 |
 //!
@@ -38,7 +38,7 @@ pub struct LensPerturbation {
 impl Default for LensPerturbation {
     fn default() -> Self {
         Self {
-            weight: 1.0,
+            weight: 2.0,
             smallest: 0.1,
             covered: 0.05,
         }

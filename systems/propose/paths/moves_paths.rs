@@ -32,6 +32,9 @@ pub struct PathProposal {
     /// t and s: vertices of the subpaths, at least as many as are kept. Where s is 1 and nothing is kept from the light, the light
     /// is chosen as seen from the last vertex of the camera subpath; where it is 0, the camera subpath is to meet one.
     pub made: [u32; 2],
+    /// Whether the camera subpath ends at the first vertex that it does not go through by a discrete lobe, so that t is at most what
+    /// [`made`](Self::made) says.
+    pub to_joint: bool,
     /// The place on the film, in pixels, through which a camera subpath goes that is steered: along the discrete lobes of the
     /// current path, and [near](MovesPaths::near) its directions elsewhere. `None` where materials draw directions.
     pub film: Option<Vec2>,
@@ -55,6 +58,7 @@ impl PathProposal {
         Self {
             kept,
             made,
+            to_joint: false,
             film: None,
             light: None,
         }

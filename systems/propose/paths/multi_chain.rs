@@ -4,7 +4,7 @@
 //!
 //! | setting | meaning | unit | default | others use |
 //! |---|---|---|---|---|
-//! | `weight` | how often it is tried, relative to the other mutations, where it is suitable | | 1 | 1 |
+//! | `weight` | how often it is tried, relative to the other mutations, where it is suitable | | 2 | 1 |
 //! | `smallest` | the smallest step on the film | pixels | 0.1 | 0.1 |
 //! | `covered` | share of the film that a disc of the largest step covers | | 0.05 | 0.05 |
 //! | `smallest_angle` | the smallest change of a direction | degrees | 0.0001 | 0.0001 |
@@ -45,7 +45,7 @@ pub struct MultiChainPerturbation {
 impl Default for MultiChainPerturbation {
     fn default() -> Self {
         Self {
-            weight: 1.0,
+            weight: 2.0,
             smallest: 0.1,
             covered: 0.05,
             smallest_angle: 1e-4,

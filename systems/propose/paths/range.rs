@@ -5,6 +5,7 @@ use super::moves_paths::PathProposal;
 use super::view::PathView;
 use crate::path::whole::{
     CameraVertices, KeptFromCamera, KeptFromLight, LightVertices, ProposedPathFilm, STEERED, SteeredOrigin, StopDepth,
+    TO_JOINT,
 };
 use crate::path::{ChainTable, Direction};
 use crate::scene::Scene;
@@ -72,6 +73,7 @@ impl RangeColumns<'_> {
         let PathProposal {
             kept,
             made,
+            to_joint,
             film,
             light,
         } = proposal;
@@ -79,10 +81,17 @@ impl RangeColumns<'_> {
         self.light_kept.put(chain, kept[1]);
         self.camera_made.put(chain, made[0]);
         self.light_made.put(chain, made[1]);
-        for (path, made, steered) in [(chain, made[0], film.is_some()), (light_path, made[1], light.is_some())] {
-            let depth = made.saturating_sub(1);
-            self.queues.deepest = self.queues.deepest.max(depth);
-            self.stops.put(path, if steered { depth | STEERED } else { depth });
+        let steered = |steered: bool| if steered { STEERED } else { 0 };
+        let flags = [
+            steered(film.is_some()) | if to_joint { TO_JOINT } else { 0 },
+            steered(light.is_some()),
+        ];
+        for (end, number) in [chain, light_path].into_iter().enumerate() {
+            let depth = made[end].saturating_sub(1);
+            // What seldom gets so deep makes room as it goes.
+            let sure = if flags[end] & TO_JOINT != 0 { kept[end] } else { depth };
+            self.queues.deepest = self.queues.deepest.max(sure);
+            self.stops.put(number, depth | flags[end]);
         }
         if let Some(film) = film {
             self.film.put(chain, film);
