@@ -2,10 +2,11 @@
 //!
 //! `cargo run --release --example equal_time -- SCENE... [--seconds S] [--seeds N] [--size WxH] [--reference SPP] [--folder F]
 //! [--way NAME=OPTIONS]...` runs `chainlight` for every scene, way and seed, for S seconds each, bootstraps included, and compares
-//! the pictures with one of SPP samples per pixel of `bdpt`. It prints, for every way, relMSE and how many times as long the first
-//! way would take to the same error: the ratio of both ways' errors, geometric means over seeds, with a 95 % interval from their
-//! spread. References are kept in the folder, and made once. The first seed's pictures of every scene are put on a sheet beside
-//! the reference.
+//! the pictures with one of SPP samples per pixel of `bdpt`. It prints, for every way, relMSE of all pixels, and without the worst
+//! 0.1 %, which a few bright samples may decide, and how many times as long the first way would take to the same error: the ratio of
+//! both ways' errors, geometric means over seeds, with a 95 % interval from their spread. Of chains, it prints how many independent
+//! samples their states are worth, too. References are kept in the folder, and made once. The first seed's pictures of every scene are put on a sheet
+//! (`equal-time.png`), a row for every scene, the reference last.
 //!
 //! ```sh
 //! cargo run --release --example equal_time -- scenes/door-ajar.ron scenes/glass-egg.ron
@@ -14,7 +15,10 @@
 //! ```
 #![expect(clippy::print_stdout, reason = "an example prints what it found")]
 
+use chainlight::film::{ExrPicture, ToneMap, encode_png, read_exr};
 use clap::Parser;
+use image::RgbImage;
+use image::imageops::{FilterType, replace, resize};
 use miette::{Context, IntoDiagnostic, Result, ensure, miette};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -53,6 +57,44 @@ const WAYS: [&str; 3] = [
     "mlt=--technique mlt",
 ];
 
+/// What pictures are measured by.
+struct Measure {
+    name: &'static str,
+    /// Where its value is: in what `chainlight compare` or, if `of_render` says so, `chainlight render` reports.
+    at: &'static str,
+    of_render: bool,
+}
+
+/// Errors, and what the states of chains are worth.
+const MEASURES: [Measure; 3] = [
+    Measure {
+        name: "relMSE",
+        at: "/rel_mse",
+        of_render: false,
+    },
+    Measure {
+        name: "without the worst 0.1 %",
+        at: "/rel_mse_trimmed",
+        of_render: false,
+    },
+    Measure {
+        name: "independent samples",
+        at: "/chains/effective_samples/total",
+        of_render: true,
+    },
+];
+
+impl Measure {
+    /// Its value; none where it does not apply.
+    fn value(&self, rendered: &Value, compared: &Value) -> Option<f64> {
+        let report = if self.of_render { rendered } else { compared };
+        report.pointer(self.at)?.as_f64()
+    }
+}
+
+/// Values of all measures, for every way and seed.
+type Measured = Vec<[Vec<Option<f64>>; MEASURES.len()]>;
+
 /// A way to render.
 struct Way {
     name: String,
@@ -66,10 +108,9 @@ fn main() -> Result<()> {
     let given: Vec<&str> = arguments.way.iter().map(String::as_str).collect();
     let texts = if given.is_empty() { WAYS.to_vec() } else { given };
     let ways: Vec<Way> = texts.into_iter().map(way).collect::<Result<_>>()?;
-    for scene in &arguments.scenes {
-        compare_on(scene, &ways, &arguments)?;
-    }
-    Ok(())
+    let compared = |scene: &PathBuf| compare_on(scene, &ways, &arguments);
+    let rows: Vec<Vec<PathBuf>> = arguments.scenes.iter().map(compared).collect::<Result<_>>()?;
+    sheet(&arguments.folder.join("equal-time.png"), &rows)
 }
 
 fn way(text: &str) -> Result<Way> {
@@ -82,7 +123,8 @@ fn way(text: &str) -> Result<Way> {
     })
 }
 
-fn compare_on(scene: &Path, ways: &[Way], arguments: &Arguments) -> Result<()> {
+/// Compares all ways on a scene; the first seed's pictures, and the reference.
+fn compare_on(scene: &Path, ways: &[Way], arguments: &Arguments) -> Result<Vec<PathBuf>> {
     let stem = scene
         .file_stem()
         .ok_or_else(|| miette!("{}: no file", scene.display()))?
@@ -95,7 +137,7 @@ fn compare_on(scene: &Path, ways: &[Way], arguments: &Arguments) -> Result<()> {
         let options = ["--technique", "bdpt", "--seed", "1000000", "--spp", &samples];
         render(scene, &options, &reference, arguments)?;
     }
-    let mut errors: Vec<Vec<f64>> = Vec::new();
+    let mut measured = Measured::new();
     let mut pictures = Vec::new();
     for way in ways {
         let options: Vec<&str> = way.options.iter().map(String::as_str).collect();
@@ -110,7 +152,7 @@ fn compare_on(scene: &Path, ways: &[Way], arguments: &Arguments) -> Result<()> {
         let seconds = arguments.seconds - trial["bootstrap_seconds"].as_f64().unwrap_or(0.0);
         ensure!(seconds > 0.0, "{}: bootstraps alone take longer than that", way.name);
         let time = seconds.to_string();
-        let mut of_way = Vec::new();
+        let mut of_way = MEASURES.map(|_| Vec::new());
         for seed in 1..=arguments.seeds {
             let output = file(&if seed == 1 {
                 name.clone()
@@ -118,47 +160,57 @@ fn compare_on(scene: &Path, ways: &[Way], arguments: &Arguments) -> Result<()> {
                 "other-seed".to_owned()
             });
             let seed = seed.to_string();
-            render(
-                scene,
-                &[&options[..], &["--time", &time, "--seed", &seed]].concat(),
-                &output,
-                arguments,
-            )?;
+            let options = [&options[..], &["--time", &time, "--seed", &seed]].concat();
+            let rendered = render(scene, &options, &output, arguments)?;
             let compared = run(&["compare", &text(&output), &text(&reference), "--json"])?;
-            let error = compared["rel_mse"].as_f64();
-            of_way.push(error.ok_or_else(|| miette!("no relMSE in {compared}"))?);
+            for (values, measure) in of_way.iter_mut().zip(MEASURES) {
+                values.push(measure.value(&rendered, &compared));
+            }
         }
-        errors.push(of_way);
-        pictures.push(file(&name).with_extension("png"));
+        measured.push(of_way);
+        pictures.push(file(&name));
     }
-    pictures.push(reference.with_extension("png"));
-    print_table(&stem, ways, &errors, arguments);
-    sheet(&arguments.folder.join(format!("{stem}.png")), &pictures)
+    pictures.push(reference);
+    print_tables(&stem, ways, &measured, arguments);
+    Ok(pictures)
 }
 
-fn print_table(scene: &str, ways: &[Way], errors: &[Vec<f64>], arguments: &Arguments) {
+fn print_tables(scene: &str, ways: &[Way], measured: &Measured, arguments: &Arguments) {
     println!("{scene}, {} s, {} seeds", arguments.seconds, arguments.seeds);
-    println!(
-        "{:<24} {:>22}  {:>10} {:>22}",
-        "way", "relMSE (standard dev.)", "ratio", "95 %"
-    );
-    for (way, of_way) in ways.iter().zip(errors) {
+    for (number, measure) in MEASURES.iter().enumerate() {
+        let of_ways: Option<Vec<Vec<f64>>> = measured
+            .iter()
+            .map(|of_way| of_way[number].iter().copied().collect())
+            .collect();
+        // Not of every way are there independent samples to tell.
+        if let Some(of_ways) = of_ways {
+            print_table(measure, ways, &of_ways);
+        }
+    }
+    println!();
+}
+
+fn print_table(measure: &Measure, ways: &[Way], values: &[Vec<f64>]) {
+    let title = format!("{} (standard dev.)", measure.name);
+    println!("{:<24} {title:>40}  {:>10} {:>22}", "way", "ratio", "95 %");
+    for (way, of_way) in ways.iter().zip(values) {
         let (mean, deviation) = spread(of_way);
         // Seeds are independent: so are the logarithms of errors.
         let logs = |errors: &[f64]| spread(&errors.iter().map(|&error| libm::log(error)).collect::<Vec<f64>>());
-        let ((first, first_deviation), (this, this_deviation)) = (logs(&errors[0]), logs(of_way));
+        let ((first, first_deviation), (this, this_deviation)) = (logs(&values[0]), logs(of_way));
         let n = of_way.len() as f64;
         let error = ((first_deviation * first_deviation + this_deviation * this_deviation) / n).sqrt();
-        let ratio = |sign: f64| libm::exp(first - this + sign * 1.96 * error);
+        // The more samples, and the smaller errors, the better.
+        let gain = if measure.of_render { this - first } else { first - this };
+        let ratio = |sign: f64| libm::exp(gain + sign * 1.96 * error);
         let interval = format!("{:.2} to {:.2}", ratio(-1.0), ratio(1.0));
         println!(
-            "{:<24} {:>22}  {:>10.2} {interval:>22}",
+            "{:<24} {:>40}  {:>10.2} {interval:>22}",
             way.name,
             format!("{mean:.3e} ({deviation:.1e})"),
             ratio(0.0)
         );
     }
-    println!();
 }
 
 /// Mean and standard deviation.
@@ -202,20 +254,38 @@ fn run(arguments: &[&str]) -> Result<Value> {
     serde_json::from_slice(&output.stdout).into_diagnostic()
 }
 
-/// Puts the pictures side by side.
-fn sheet(to: &Path, pictures: &[PathBuf]) -> Result<()> {
-    let images: Vec<image::RgbImage> = pictures
-        .iter()
-        .map(|path| Ok(image::open(path).into_diagnostic()?.to_rgb8()))
-        .collect::<Result<_>>()?;
+/// Puts pictures on a sheet: a row for every scene, as bright as its last picture needs it.
+fn sheet(to: &Path, rows: &[Vec<PathBuf>]) -> Result<()> {
     const MARGIN: u32 = 6;
-    let width: u32 = images.iter().map(|image| image.width() + MARGIN).sum();
-    let height = images.iter().map(image::RgbImage::height).max().unwrap_or(0);
-    let mut sheet = image::RgbImage::from_pixel(width + MARGIN, height + 2 * MARGIN, image::Rgb([24, 24, 26]));
-    let mut x = i64::from(MARGIN);
-    for image in &images {
-        image::imageops::replace(&mut sheet, image, x, i64::from(MARGIN));
-        x += i64::from(image.width() + MARGIN);
+    const SCALE: u32 = 2;
+    let rows: Vec<Vec<RgbImage>> = rows.iter().map(|row| developed(row)).collect::<Result<_>>()?;
+    let across = |row: &Vec<RgbImage>| row.iter().map(|image| SCALE * image.width() + MARGIN).sum::<u32>();
+    let down = |row: &Vec<RgbImage>| row.iter().map(|image| SCALE * image.height() + MARGIN).max();
+    let width = rows.iter().map(across).max().unwrap_or(0) + MARGIN;
+    let height = rows.iter().filter_map(down).sum::<u32>() + MARGIN;
+    let mut sheet = RgbImage::from_pixel(width, height, image::Rgb([24, 24, 26]));
+    let mut y = MARGIN;
+    for row in &rows {
+        let mut x = MARGIN;
+        for image in row {
+            let [w, h] = [image.width(), image.height()].map(|side| SCALE * side);
+            let large = resize(image, w, h, FilterType::Nearest);
+            replace(&mut sheet, &large, x.into(), y.into());
+            x += w + MARGIN;
+        }
+        y += down(row).unwrap_or(0);
     }
     sheet.save(to).into_diagnostic()
+}
+
+fn developed(row: &[PathBuf]) -> Result<Vec<RgbImage>> {
+    let pictures = row.iter().map(|path| Ok(read_exr(path)?));
+    let pictures: Vec<ExrPicture> = pictures.collect::<Result<_>>()?;
+    let last = pictures.last().ok_or_else(|| miette!("no pictures"))?;
+    let tone = ToneMap::automatic(last.view());
+    let images = pictures.iter().map(|picture| {
+        let png = encode_png(picture.view(), tone).map_err(|error| miette!(error))?;
+        Ok(image::load_from_memory(&png).into_diagnostic()?.to_rgb8())
+    });
+    images.collect()
 }
