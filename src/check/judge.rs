@@ -82,7 +82,11 @@ pub(super) fn judge(runs: &[Judged<'_>], significance: f64) -> (Vec<Verdict>, Un
     let tests = candidates.len();
     let verdict = |candidate: Candidate| {
         let mean = candidate.mean;
-        let z = mean.z();
+        let z = if candidate.kind == TestKind::Decided {
+            mean.z_of_known_error()
+        } else {
+            mean.z()
+        };
         let outcome = TestOutcome {
             kind: candidate.kind,
             run: runs[candidate.run].run.to_owned(),

@@ -132,6 +132,18 @@ impl Mean {
         let s = self.skewness;
         t + s * (2.0 * t * t + 1.0) / 6.0 + s * s * t * t * t / 27.0
     }
+
+    /// The same where the error is known, not estimated from the same values: then it does not come out small together with the mean,
+    /// and skewness acts the other way (the expansion of Cornish and Fisher 1938, inverted, with the excess kurtosis that rare events
+    /// have, the square of their skewness).
+    pub(super) fn z_of_known_error(&self) -> f64 {
+        let t = self.mean / self.error;
+        if self.mean == 0.0 || !t.is_finite() {
+            return self.z();
+        }
+        let s = self.skewness;
+        t - s * (t * t - 1.0) / 6.0 + 5.0 * s * s * (t * t * t - t) / 72.0
+    }
 }
 
 #[cfg(test)]
@@ -183,6 +195,33 @@ mod tests {
         assert_eq!(mean.error, 0.0);
         assert_eq!(mean.z(), f64::NEG_INFINITY);
         assert_eq!(Tally::default().mean(1000).z(), 0.0);
+    }
+
+    /// Coins that hardly ever, or nearly always, come up heads, 40 times the rarer outcome in a sample.
+    #[test]
+    fn skewed_coins_raise_no_false_alarms() {
+        let (repetitions, n) = (4000, 2000_u64);
+        let limit = upper_quantile(0.005);
+        for probability in [0.02, 0.98] {
+            let (mut known, mut estimated) = ([0; 2], [0; 2]);
+            for repetition in 0..repetitions {
+                let mut stream = StreamKey::new(2, repetition, 0).stream(Purpose::FILM, 0);
+                let mut tally = Tally::default();
+                for chain in 0..n as u32 {
+                    tally.add_coin(stream.next_f64() < probability, probability, chain);
+                }
+                let mean = tally.mean(n);
+                let count = |counts: &mut [i32; 2], z: f64| {
+                    counts[0] += i32::from(z < -limit);
+                    counts[1] += i32::from(z > limit);
+                };
+                count(&mut known, mean.z_of_known_error());
+                count(&mut estimated, mean.z());
+            }
+            // By the binomial distribution 17 and 24, give or take 5, and 53, give or take 7, on one side.
+            assert!(known.iter().all(|&count| (5..=38).contains(&count)), "{known:?}");
+            assert!(estimated.iter().any(|&count| count > 38), "{estimated:?}");
+        }
     }
 
     /// Means of 2000 values each, one in forty of which is exponential and the others nothing, minus what they are on average:

@@ -100,7 +100,7 @@ pub struct FoundPath<'a> {
     /// The light that it ends on.
     pub light: u32,
     /// Where it is seen.
-    pub seen: Seen,
+    pub seen: FilmPlace,
 }
 
 impl FoundColumns<'_> {
@@ -282,12 +282,12 @@ impl Joint<'_> {
 
     /// The pixel that the path counts for: the one that it was started through, `started` with its place, or one of those whose
     /// filters reach the place where it is seen.
-    fn seen(&self, key: StreamKey, kept: u32, (pixel, film): (u32, Vec2)) -> Option<Seen> {
+    fn seen(&self, key: StreamKey, kept: u32, (pixel, film): (u32, Vec2)) -> Option<FilmPlace> {
         if self.made[0] == 1 {
             let light_path = self.place.lights_from as usize + self.chain;
             let y = self.vertices.position(self.place.vertex(light_path, self.made[1] - 1));
-            return Seen::by_lens(self.scene, key, self.vertices.position(self.chain), y);
+            return FilmPlace::by_lens(self.scene, key, self.vertices.position(self.chain), y);
         }
-        Seen::through(self.scene, key, film, (kept != 1).then_some(pixel))
+        FilmPlace::through(self.scene, key, film, (kept != 1).then_some(pixel))
     }
 }

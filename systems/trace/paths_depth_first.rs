@@ -163,7 +163,7 @@ struct Made {
     /// Its edges.
     k: u32,
     /// Where it is seen, if it is.
-    seen: Option<Seen>,
+    seen: Option<FilmPlace>,
     /// The light that it ends on.
     light: u32,
     /// What passes the edge that joins its subpaths.
@@ -223,10 +223,10 @@ impl Maker<'_> {
         let ends_on = if s == 0 { met } else { sent };
         let seen = if t == 1 {
             let y = light[s as usize - 1].surface.position;
-            Seen::by_lens(scene, key, camera[0].surface.position, y)
+            FilmPlace::by_lens(scene, key, camera[0].surface.position, y)
         } else {
             let (pixel, film) = started;
-            Seen::through(scene, key, film, (self.proposal.kept[0] != 1).then_some(pixel))
+            FilmPlace::through(scene, key, film, (self.proposal.kept[0] != 1).then_some(pixel))
         };
         let ends_on = complete(scene, key, camera, light[..s as usize].iter().rev().copied(), ends_on)?;
         Some(Made {

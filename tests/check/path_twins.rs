@@ -87,8 +87,19 @@ twin! {
     }
 }
 twin! {
-    /// T without the share of the strategy, in which the geometry of the edge is that it joins.
-    WithoutGeometry, LensPerturbation, "twin without geometry", |_twin, _way| 1.0
+    /// T with the geometry term of the edge that it joins, which it does not draw.
+    WithGeometry, LensPerturbation, "twin with geometry", |twin, way| twin.0.density(way) * geometry_of_joint(way)
+}
+twin! {
+    /// T of a place on the film as if all places were within as many filters.
+    WithoutFilter, LensPerturbation, "twin without filter", |twin, way| twin.0.density(way) * f64::from(way.to.filter)
+}
+twin! {
+    /// T as if directions that are drawn about others had the density of those that materials draw.
+    WithMaterials, MultiChainPerturbation, "twin with materials", |twin, way| {
+        let drawn = (1..way.made - 1).filter(|&i| !way.to.is_discrete(i));
+        twin.0.density(way) * drawn.map(|i| way.to.onward(i)).product::<f64>()
+    }
 }
 twin! {
     /// T without the density of the kept light: as if the strategy had chosen it.
@@ -137,6 +148,17 @@ twin! {
     /// T that leaves out how likely mutations are to be chosen, of all of them: it has to be the last one.
     WithoutChoices, MultiChainPerturbation, "twin without choices", |twin, way| twin.0.density(way);
     system!(Place::Stage(Stage::Evaluate), forget_choices)
+}
+
+/// cos cos / d² of the edge by which a proposal's subpaths are joined; 1 where they are not.
+fn geometry_of_joint(way: &Way<'_>) -> f64 {
+    if way.made > way.to.edges {
+        return 1.0;
+    }
+    let [x, y] = [way.made - 1, way.made].map(|i| way.to.vertex(i).surface);
+    let span = y.position.as_dvec3() - x.position.as_dvec3();
+    let cosines = span.dot(x.normal.as_dvec3()) * span.dot(y.normal.as_dvec3());
+    cosines.abs() / (span.length_squared() * span.length_squared())
 }
 
 /// Takes away what the core adds to the densities of all chains.

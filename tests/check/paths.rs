@@ -1,10 +1,10 @@
-//! Mutations of whole paths: each alone, and mixed with the one that draws seeds, leaves the light unchanged in three scenes; each
-//! kind of mistake in their densities is found, by replicas with which the mutation itself passes.
+//! Mutations of whole paths: each alone, mixed with the one that draws seeds, and all together leave the light unchanged in four
+//! scenes; each kind of mistake in their densities is found, by replicas with which the mutation itself passes.
 
 use super::path_twins::*;
 use super::verdicts::quick;
 use crate::physics::enclosure::walls;
-use crate::support::scenes::{inline, shipped};
+use crate::support::scenes::{glass_under_wide_lamp, inline, shipped};
 use crate::support::verdict::say;
 use chainlight::check::{Options, Report, built_in_scene, run};
 use chainlight::plan::{Direct, Mutation, Registry, StateSpace};
@@ -38,23 +38,31 @@ fn is_refused<M: Mutation>(settings: &[&str], twin: M, scene: &Arc<Scene>, optio
 }
 
 #[test]
-fn every_mutation_of_paths_passes_in_three_scenes() {
+fn every_mutation_of_paths_passes_in_four_scenes() {
     let scenes = [
-        ("cornell-box.ron", 12, Direct::Chains),
-        ("cornell-glass.ron", 12, Direct::default()),
-        ("door-ajar.ron", 8, Direct::Chains),
+        ("the box", shipped("cornell-box.ron", 12), Direct::Chains, 16),
+        ("the glass box", shipped("cornell-glass.ron", 12), Direct::default(), 16),
+        // There replicas weigh about the same, and far smaller biases show than where few have most of the light.
+        ("under a wide lamp", glass_under_wide_lamp(12, 6), Direct::Chains, 64),
+        ("the door", shipped("door-ajar.ron", 8), Direct::Chains, 64),
     ];
     let registry = mutations();
     let paths = || registry.iter().filter(|m| m.space() == StateSpace::PATH);
-    for (name, size, direct) in scenes {
+    let number = scenes.len();
+    for (name, scene, direct, candidates) in scenes {
         let options = Options {
             replicas: 1 << 14,
-            significance: sidak(0.01, scenes.len() * paths().count()),
+            significance: sidak(0.01, number * paths().count()),
             direct,
+            candidates,
             ..quick()
         };
-        let scene = shipped(name, size);
         for mutation in paths() {
+            // All together once, each with its own weight.
+            let options = Options {
+                among_all: mutation.name() == "bidirectional",
+                ..options.clone()
+            };
             let report = check(&registry, mutation.name(), &scene, &options);
             let failures = report.failures().0;
             assert!(failures.is_empty(), "{name}: {report}");
@@ -105,9 +113,51 @@ fn a_density_that_is_a_little_too_large_where_paths_grow_fails() {
 }
 
 #[test]
-fn a_lens_perturbation_that_forgets_the_geometry_of_its_edge_fails() {
+fn a_lens_perturbation_that_counts_the_geometry_of_its_edge_fails() {
     let scene = built_in_scene().expect("a scene");
-    is_refused(&[], WithoutGeometry::default(), &scene, &patient());
+    is_refused(&[], WithGeometry::default(), &scene, &patient());
+}
+
+/// A film so small that most of it is near its border, where fewer pixels' filters reach.
+#[test]
+fn a_lens_perturbation_that_forgets_the_filters_fails() {
+    let text = format!(
+        r#"(version: 1, settings: (max_depth: 4),
+        camera: Perspective(origin: (0.3, -0.4, 0.5), target: (-0.2, 0.1, -1), fov: 100),
+        film: (width: 4, height: 4, filter: Tent(radius: 2)),
+        materials: {{"wall": Diffuse(reflectance: (0.5, 0.5, 0.5))}}, shapes: [{}])"#,
+        walls()
+    );
+    let options = Options {
+        direct: Direct::Chains,
+        ..patient()
+    };
+    let settings = ["lens:covered=1"];
+    is_refused(&settings, WithoutFilter::default(), &inline(&text, 4), &options);
+}
+
+/// A floor below a mirror, and light at one side: by way of both it is seen the steeper the nearer to it.
+#[test]
+fn a_multi_chain_perturbation_that_takes_its_directions_for_those_of_materials_fails() {
+    let text = r#"(version: 1, settings: (max_depth: 3),
+        camera: Perspective(origin: (0, 0.5, 0), target: (0, 0, 0), up: (1, 0, 0), fov: 120),
+        film: (width: 12, height: 12),
+        materials: {
+            "white": Diffuse(reflectance: (0.7, 0.7, 0.7)),
+            "mirror": Conductor(metal: "Ag"),
+            "lamp": Diffuse(reflectance: (0, 0, 0)),
+        },
+        shapes: [
+            (shape: Quad(corner: (-3, 0, 3), edge_u: (6, 0, 0), edge_v: (0, 0, -6)), material: "white"),
+            (shape: Quad(corner: (-3, 1, 3), edge_u: (0, 0, -6), edge_v: (6, 0, 0)), material: "mirror"),
+            (shape: Quad(corner: (3.2, 0, -4), edge_u: (0, 0, 8), edge_v: (0, 1, 0)), material: "lamp", emission: (1, 1, 1)),
+        ])"#;
+    let options = Options {
+        direct: Direct::Chains,
+        ..patient()
+    };
+    let settings = ["multi_chain:smallest_angle=10,largest_angle=90"];
+    is_refused(&settings, WithMaterials::default(), &inline(text, 12), &options);
 }
 
 /// The lamp is round: the nearer to it, the smaller is its part that can be chosen.
@@ -177,6 +227,7 @@ fn a_caustic_perturbation_that_takes_solid_angles_for_probabilities_fails() {
             (shape: Quad(corner: (4, 2, 0.5), edge_u: (0, 0, -1), edge_v: (1, 0, 0)), material: "lamp", emission: (1, 1, 1)),
         ])"#;
     let options = Options {
+        replicas: 1 << 16,
         direct: Direct::Chains,
         ..patient()
     };

@@ -140,7 +140,7 @@ fn direct_light_apart_is_that_of_direct_paths_and_chains_have_the_rest() {
         indirect.push(all_light(&render));
     }
     chains.options.direct = Some(Direct::Apart(40_000));
-    let apart = chains.start(&scene);
+    let apart = chains.run(&scene, 1);
     let direct = mean(&apart.direct().expect("rendered apart").picture(), 0, |_, _| true);
     let rest = Estimate::of(&indirect);
     // The errors of both.

@@ -1,7 +1,7 @@
 //! Scenes of tests: those that ship, and those that a test writes.
 
 use chainlight::scene::{
-    Format, LightDescription, Scene, SceneOverrides, SceneSource, flatten, parse_scene, read_scene,
+    Format, LightDescription, Scene, SceneOverrides, SceneSource, ShapeKind, flatten, parse_scene, read_scene,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -13,6 +13,22 @@ pub fn shipped(name: &str, size: u32) -> Arc<Scene> {
         &read_scene(&path).unwrap_or_else(|error| panic!("{}", error.plain())),
         size,
     )
+}
+
+/// The glass box with a lamp for a ceiling, and paths of up to `max_depth` edges: what is there is found with about as much light by
+/// all that finds it.
+pub fn glass_under_wide_lamp(size: u32, max_depth: u32) -> Arc<Scene> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/cornell-glass.ron");
+    let mut source = read_scene(&path).unwrap_or_else(|error| panic!("{}", error.plain()));
+    source.description.settings.max_depth = max_depth;
+    for shape in &mut source.description.shapes {
+        if let (Some(_), ShapeKind::Quad { corner, edge_u, edge_v }) = (shape.emission, &mut shape.shape) {
+            // Just below the ceiling.
+            *corner = [6.0, 545.0, 10.0];
+            (edge_u[0], edge_v[2]) = (530.0, 530.0);
+        }
+    }
+    compile(&source, size)
 }
 
 /// A shipped scene with the box filter of the references, its lights scaled by `brightness`.

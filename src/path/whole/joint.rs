@@ -1,11 +1,11 @@
-//! Whole paths of two subpaths: the edge that joins them, and where they are seen.
+//! Whole paths of two subpaths: the edge that joins them.
 
 use super::WholeVertex;
 use crate::geometry::NOT_EMITTING;
-use crate::path::{KeyedDraws, VERTEX_INFINITE, VERTEX_LENS, VERTEX_LIGHT, pixel_of};
+use crate::path::{VERTEX_INFINITE, VERTEX_LENS, VERTEX_LIGHT};
 use crate::sampling::{Purpose, StreamKey};
 use crate::scene::Scene;
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 
 /// Chooses among lights at infinity that a path meets all at once.
 const AMONG_INFINITE: Purpose = Purpose::named("light met at infinity");
@@ -76,35 +76,4 @@ pub fn complete(
         path.push(vertex);
     }
     Some(light)
-}
-
-/// Where on the film a path is seen.
-#[derive(Clone, Copy, Debug)]
-pub struct Seen {
-    /// The pixel that it counts for.
-    pub pixel: u32,
-    /// The place, in pixels.
-    pub film: Vec2,
-    /// The sum of all pixels' filters there.
-    pub filter: f32,
-}
-
-impl Seen {
-    /// Where a path is seen that was started through a place on the film, `started` for its pixel, if that is known; for one of
-    /// those whose filters reach there else, as `key` chooses.
-    #[must_use]
-    pub fn through(scene: &Scene, key: StreamKey, film: Vec2, started: Option<u32>) -> Option<Self> {
-        let (chosen, filter) = pixel_of(scene, film, KeyedDraws(key).splat(0))?;
-        Some(Self {
-            pixel: started.unwrap_or(chosen),
-            film,
-            filter,
-        })
-    }
-
-    /// The same where the lens at `lens` sees a light subpath that ends at `y`.
-    #[must_use]
-    pub fn by_lens(scene: &Scene, key: StreamKey, lens: Vec3, y: Vec3) -> Option<Self> {
-        Self::through(scene, key, scene.camera.project(lens, y)?.film, None)
-    }
 }

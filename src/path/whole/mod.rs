@@ -15,21 +15,25 @@
 //! No product of densities ever stands alone: ratios are made of [`Scaled`] numbers.
 
 mod columns;
+mod film_place;
 mod form;
 mod joint;
 mod jumps;
 mod lengths;
+mod replacement;
 mod scaled;
 mod starts;
 mod strategies;
 mod vertex;
 
 pub use columns::*;
+pub use film_place::FilmPlace;
 pub use form::{CAUSTIC_TRAIT, CHAIN_TRAIT, LENS_TRAIT, PathForm};
 pub(crate) use form::{camera_vertices, light_vertices};
-pub use joint::{Seen, complete, joining, segment};
+pub use joint::{complete, joining, segment};
 pub use jumps::{Sizes, aside, jump, tilt};
-pub use lengths::{Deletion, Growth, Lengths, Replacement, StrategyChoice};
+pub use lengths::{Lengths, StrategyChoice};
+pub use replacement::{Deletion, Growth, Replacement};
 pub use scaled::Scaled;
 pub use starts::{CameraStart, LightStart};
 pub use strategies::{Measured, WholePath};

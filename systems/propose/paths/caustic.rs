@@ -14,7 +14,7 @@
 //! over that of the path behind it; light from infinity moves by the width of a pixel where the lens sees it. T(x→y): one strategy;
 //! steps are as likely one way as the other, except that those which are too small or too large for y cannot lead back.
 
-use super::film_jump::{check_film_sizes, film_sizes};
+use super::film_jump::{COVERED, SMALLEST, check_film_sizes, film_sizes};
 use super::moves_paths::{MovesPaths, PathProposal, SteeredLight, Way};
 use super::view::PathView;
 use crate::chain::StateClass;
@@ -40,8 +40,8 @@ impl Default for CausticPerturbation {
     fn default() -> Self {
         Self {
             weight: 2.0,
-            smallest: 0.1,
-            covered: 0.05,
+            smallest: SMALLEST,
+            covered: COVERED,
         }
     }
 }

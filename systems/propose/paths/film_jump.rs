@@ -7,6 +7,11 @@ use crate::path::whole::{Sizes, jump};
 use crate::sampling::{Purpose, StreamKey};
 use crate::scene::Scene;
 
+/// The smallest step on the film by default, in pixels.
+pub const SMALLEST: f32 = 0.1;
+/// The share of the film that a disc of the largest step covers by default.
+pub const COVERED: f32 = 0.05;
+
 /// The distances on the film, in pixels, from `smallest` to the radius of a disc that covers this share of the film.
 #[must_use]
 pub fn film_sizes(scene: &Scene, smallest: f32, covered: f32) -> Sizes {

@@ -13,7 +13,7 @@
 //!
 //! T(x→y): one strategy; steps on the film are as likely one way as the other.
 
-use super::film_jump::{check_film_sizes, film_jump, film_jump_density, film_sizes};
+use super::film_jump::{COVERED, SMALLEST, check_film_sizes, film_jump, film_jump_density, film_sizes};
 use super::moves_paths::{MovesPaths, PathProposal, Way};
 use super::view::PathView;
 use crate::chain::StateClass;
@@ -39,8 +39,8 @@ impl Default for LensPerturbation {
     fn default() -> Self {
         Self {
             weight: 2.0,
-            smallest: 0.1,
-            covered: 0.05,
+            smallest: SMALLEST,
+            covered: COVERED,
         }
     }
 }

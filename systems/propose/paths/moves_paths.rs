@@ -9,7 +9,8 @@ use std::fmt;
 /// A mutation of whole paths. Its proposal keeps both ends of the path and has the middle drawn anew: two subpaths grow from what is
 /// kept, one from the camera and one from the light, and one edge joins them.
 pub trait MovesPaths: fmt::Debug + Send + Sync {
-    /// What becomes of a path; draws come from `key`, for purposes of its own. `None` if it can do nothing with this one.
+    /// What becomes of a path; draws come from `key`, for purposes of its own. `None` if it can do nothing with this one. What does not
+    /// [fit](PathProposal::fits) the path is refused with a panic.
     fn propose(&self, path: &PathView<'_>, key: StreamKey) -> Option<PathProposal>;
 
     /// A direction near `direction`, in which the current path goes on from a vertex where it scatters with a density, for a subpath
@@ -29,7 +30,7 @@ pub trait MovesPaths: fmt::Debug + Send + Sync {
 pub struct PathProposal {
     /// t₀ and s₀: vertices that are kept from the camera, and from the light.
     pub kept: [u32; 2],
-    /// t and s: vertices of the subpaths, at least as many as are kept. Where s is 1 and nothing is kept from the light, the light
+    /// t and s: vertices of the subpaths, at least as many as are kept, t at least 1. Where s is 1 and nothing is kept from the light, the light
     /// is chosen as seen from the last vertex of the camera subpath; where it is 0, the camera subpath is to meet one.
     pub made: [u32; 2],
     /// Whether the camera subpath ends at the first vertex that it does not go through by a discrete lobe, so that t is at most what
@@ -63,6 +64,19 @@ impl PathProposal {
             light: None,
         }
     }
+
+    /// Whether it can be made of a path with `edges` edges, where paths have up to `longest`: what is not is a mistake of its mutation.
+    #[must_use]
+    pub const fn fits(&self, edges: u32, longest: u32) -> bool {
+        let Self { kept, made, .. } = *self;
+        let vertices = made[0] + made[1];
+        kept[0] + kept[1] <= edges + 1
+            && (kept[0] <= made[0] && kept[1] <= made[1])
+            && (made[0] > 0 && vertices > 1 && vertices <= longest + 1)
+            // Steered subpaths go where those of the path go.
+            && (self.film.is_none() || (kept[0] == 1 && made[0] <= edges + 1 && !self.to_joint))
+            && (self.light.is_none() || (kept[1] > 0 && made[1] <= edges + 1))
+    }
 }
 
 /// One way: from a path to another, which a mutation makes of it.
@@ -87,5 +101,27 @@ impl<'a> Way<'a> {
     #[must_use]
     pub const fn current(&self) -> &PathView<'a> {
         if self.is_back { &self.to } else { &self.from }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn proposals_fit_paths_that_have_what_they_keep() {
+        let fits = |kept, made| PathProposal::new(kept, made).fits(4, 6);
+        assert!(fits([0, 0], [1, 1]) && fits([2, 3], [3, 4]) && fits([0, 5], [2, 5]) && fits([0, 0], [7, 0]));
+        // More than there is, more than is made, no camera, one vertex, too long.
+        assert!(!fits([3, 3], [3, 3]) && !fits([2, 0], [1, 3]) && !fits([0, 3], [3, 2]));
+        assert!(!fits([0, 0], [0, 3]) && !fits([0, 0], [1, 0]) && !fits([0, 0], [4, 4]));
+        let film = Some(Vec2::ZERO);
+        let steered = |kept, made| PathProposal {
+            film,
+            ..PathProposal::new(kept, made)
+        };
+        assert!(steered([1, 2], [3, 2]).fits(4, 6) && !steered([0, 2], [3, 2]).fits(4, 6));
+        // There is nowhere that the sixth vertex could be near.
+        assert!(steered([1, 0], [5, 0]).fits(4, 6) && !steered([1, 0], [6, 0]).fits(4, 6));
     }
 }

@@ -58,6 +58,9 @@ impl Ranges<'_, '_> {
 
 impl RangeColumns<'_> {
     /// Writes a chain's proposal, and the path that it is made of; `None` where its mutation proposes nothing.
+    ///
+    /// # Panics
+    /// A proposal that does not [fit](PathProposal::fits) the path.
     pub fn put(
         &mut self,
         scene: &Scene,
@@ -69,6 +72,12 @@ impl RangeColumns<'_> {
             self.camera_made.put(chain, 0);
             return;
         };
+        assert!(
+            proposal.fits(path.edges, path.longest()),
+            "a mutation proposes {proposal:?} of a path with {} edges, where paths have up to {}",
+            path.edges,
+            path.longest()
+        );
         let light_path = place.lights_from as usize + chain;
         let PathProposal {
             kept,
