@@ -1,9 +1,11 @@
 //! `compare`: how far a picture is from a reference.
 
-use crate::film::{ExrPicture, read_exr};
+use crate::film::{ExrPicture, ToneMap, read_exr};
+use crate::stats::flip::mean_flip;
 use crate::stats::metrics::{Metrics, compare};
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
+use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -19,6 +21,17 @@ pub struct CompareArgs {
     pub json: bool,
 }
 
+/// What the command finds.
+#[derive(Clone, Copy, Debug, Serialize)]
+struct Comparison {
+    #[serde(flatten)]
+    metrics: Metrics,
+    /// The mean of ꟻLIP, from 0, the same, to 1.
+    flip: f64,
+    /// Stops of the exposure at which both pictures are shown for it: the reference's automatic one.
+    flip_exposure: f32,
+}
+
 /// Reads both pictures and prints what lies between them.
 ///
 /// # Errors
@@ -30,15 +43,21 @@ pub fn run(args: &CompareArgs) -> Result<()> {
 /// What the command prints.
 fn report(args: &CompareArgs) -> Result<String> {
     let (image, reference) = (read_exr(&args.image)?, read_exr(&args.reference)?);
-    let metrics = compare(image.view(), reference.view())?;
+    let tone = ToneMap::automatic(reference.view());
+    let comparison = Comparison {
+        metrics: compare(image.view(), reference.view())?,
+        flip: mean_flip(image.view(), reference.view(), tone)?,
+        flip_exposure: tone.exposure,
+    };
     if args.json {
-        serde_json::to_string_pretty(&metrics).into_diagnostic()
+        serde_json::to_string_pretty(&comparison).into_diagnostic()
     } else {
-        Ok(table(&image, &metrics))
+        Ok(table(&image, &comparison))
     }
 }
 
-fn table(image: &ExrPicture, m: &Metrics) -> String {
+fn table(image: &ExrPicture, comparison: &Comparison) -> String {
+    let m = &comparison.metrics;
     let [red, green, blue] = m.channel_mean_ratio;
     let rows = [
         ("MSE", m.mse, "mean (a - r)^2"),
@@ -49,6 +68,12 @@ fn table(image: &ExrPicture, m: &Metrics) -> String {
             "the same without the worst 0.1 % of the pixels",
         ),
         ("MAPE", m.mape, "mean |a - r| / (|r| + 0.01)"),
+        ("SMAPE", m.smape, "mean 2 |a - r| / (|a| + |r| + 0.01)"),
+        (
+            "FLIP",
+            comparison.flip,
+            "as displayed, at the reference's automatic exposure",
+        ),
         ("mean ratio", m.mean_ratio, "mean a / mean r"),
         ("  red", red, ""),
         ("  green", green, ""),
@@ -100,6 +125,8 @@ mod tests {
         relMSE             2.475248e-1  mean (a - r)^2 / (r^2 + 0.01)
         relMSE, trimmed    2.475248e-1  the same without the worst 0.1 % of the pixels
         MAPE               4.950495e-1  mean |a - r| / (|r| + 0.01)
+        SMAPE              3.984064e-1  mean 2 |a - r| / (|a| + |r| + 0.01)
+        FLIP               2.777626e-1  as displayed, at the reference's automatic exposure
         mean ratio          1.500000e0  mean a / mean r
           red               1.500000e0
           green             1.500000e0

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 /// ε of the relative squared error: keeps dark pixels from ruling it. In units of radiance squared.
 pub const REL_MSE_EPSILON: f64 = 0.01;
-/// ε of the relative absolute error. In units of radiance.
+/// ε of the relative absolute errors. In units of radiance.
 pub const MAPE_EPSILON: f64 = 0.01;
 /// The share of the pixels, those with the largest relative squared error, that the trimmed error leaves out.
 pub const TRIMMED_SHARE: f64 = 0.001;
@@ -23,6 +23,8 @@ pub struct Metrics {
     pub rel_mse_trimmed: f64,
     /// Mean absolute relative error: mean |a − r| / (|r| + 0.01).
     pub mape: f64,
+    /// Symmetric mean absolute relative error: mean 2 |a − r| / (|a| + |r| + 0.01). At most 2, however bright a pixel is.
+    pub smape: f64,
     /// mean a / mean r, all channels together: what a loss or gain of energy shows in. Not a finite number where
     /// r is black (and then `null` in JSON).
     pub mean_ratio: f64,
@@ -47,19 +49,30 @@ pub struct SizeMismatch {
     pub reference: (u32, u32),
 }
 
+impl SizeMismatch {
+    /// Refuses pictures whose sides differ.
+    ///
+    /// # Errors
+    /// That they do.
+    pub fn refuse(image: ImageView<'_>, reference: ImageView<'_>) -> Result<(), Self> {
+        let sides = |v: ImageView<'_>| (v.width, v.height);
+        if sides(image) == sides(reference) && image.rgb.len() == reference.rgb.len() {
+            return Ok(());
+        }
+        Err(Self {
+            image: sides(image),
+            reference: sides(reference),
+        })
+    }
+}
+
 /// Compares `image` with `reference`. Where no pixel is finite in both, every error is zero, and `compared` says so.
 ///
 /// # Errors
 /// Where their sides differ.
 pub fn compare(image: ImageView<'_>, reference: ImageView<'_>) -> Result<Metrics, SizeMismatch> {
-    let sides = |v: ImageView<'_>| (v.width, v.height);
-    if sides(image) != sides(reference) || image.rgb.len() != reference.rgb.len() {
-        return Err(SizeMismatch {
-            image: sides(image),
-            reference: sides(reference),
-        });
-    }
-    let (mut mse, mut mape, mut max_abs_error) = (0.0, 0.0, 0.0_f64);
+    SizeMismatch::refuse(image, reference)?;
+    let (mut mse, mut mape, mut smape, mut max_abs_error) = (0.0, 0.0, 0.0, 0.0_f64);
     let (mut image_sum, mut reference_sum) = ([0.0; 3], [0.0; 3]);
     let mut rel_mse_of_pixel = Vec::with_capacity(image.rgb.len());
     for (a, r) in image
@@ -75,6 +88,7 @@ pub fn compare(image: ImageView<'_>, reference: ImageView<'_>) -> Result<Metrics
             mse += squared;
             rel_mse += squared / (r * r + REL_MSE_EPSILON);
             mape += difference.abs() / (r.abs() + MAPE_EPSILON);
+            smape += 2.0 * difference.abs() / (a.abs() + r.abs() + MAPE_EPSILON);
             max_abs_error = max_abs_error.max(difference.abs());
             image_sum[channel] += a;
             reference_sum[channel] += r;
@@ -93,6 +107,7 @@ pub fn compare(image: ImageView<'_>, reference: ImageView<'_>) -> Result<Metrics
         rel_mse,
         rel_mse_trimmed: mean(rel_mse_of_pixel[..kept].iter().sum(), kept),
         mape: mean(mape, compared),
+        smape: mean(smape, compared),
         mean_ratio: image_sum.iter().sum::<f64>() / reference_sum.iter().sum::<f64>(),
         channel_mean_ratio: [ratio(0), ratio(1), ratio(2)],
         max_abs_error,
@@ -133,6 +148,7 @@ mod tests {
         assert_near(m.mse, (0.25 + 0.25 + 0.0625) / 6.0);
         assert_near(m.rel_mse, (0.25 / 0.26 + 0.25 / 1.01 + 0.0625 / 0.0725) / 6.0);
         assert_near(m.mape, (0.5 / 0.51 + 0.5 / 1.01 + 0.25 / 0.26) / 6.0);
+        assert_near(m.smape, 2.0 * (0.5 / 1.51 + 0.5 / 1.51 + 0.25 / 0.26) / 6.0);
         assert_near(m.mean_ratio, 3.5 / 3.75);
         assert_eq!(m.channel_mean_ratio, [2.0, 1.0, 0.4]);
         assert_eq!((m.max_abs_error, m.compared, m.non_finite), (0.5, 2, 0));

@@ -7,6 +7,7 @@ pub mod components;
 pub mod effective_samples;
 pub mod error;
 pub mod fisher;
+pub mod flip;
 pub mod group_means;
 pub mod metrics;
 pub mod normal;

@@ -142,6 +142,35 @@ fn under_all_lights_at_once_before_a_parallel_camera() {
     );
 }
 
+/// Light that is bent on its way to the floor, and again on its way to the lens.
+#[test]
+fn behind_smooth_glass_under_a_wide_lamp() {
+    let scene = inline(
+        r#"(version: 1, settings: (max_depth: 6), camera: Perspective(origin: (1.5, 3, 4), target: (0, 0.3, 0), fov: 30),
+        film: (width: 24, height: 24),
+        materials: {
+            "white": Diffuse(reflectance: (0.7, 0.7, 0.7)),
+            "glass": Dielectric(interior_ior: 1.5),
+            "diamond": Dielectric(interior_ior: 2.4),
+        },
+        shapes: [
+            (shape: Quad(corner: (-2, 0, 2), edge_u: (4, 0, 0), edge_v: (0, 0, -4)), material: "white"),
+            (shape: Sphere(center: (0.5, 0.5, 0.4), radius: 0.45), material: "glass"),
+            (shape: Box(min: (-0.9, 0.05, -0.6), max: (-0.1, 0.9, 0.5)), material: "glass"),
+            (shape: Torus(center: (-0.2, 0.3, 1), axis: (0.3, 1, 0.2), major_radius: 0.3, minor_radius: 0.12, segments: (12, 8)),
+                material: "diamond"),
+            (shape: Quad(corner: (-1.5, 3.5, -1.5), edge_u: (3, 0, 0), edge_v: (0, 0, 3)), material: "white", emission: (3, 2.8, 2.5)),
+        ])"#,
+        PIXELS,
+    );
+    agree(
+        "paths behind smooth glass",
+        scene,
+        16,
+        contenders([0.05, 0.1, 0.1, 0.1]),
+    );
+}
+
 /// Smooth meshes with normals of their own, seen in mirrors and through glass, and sun and sky through a window.
 #[test]
 fn in_rooms_of_meshes() {
