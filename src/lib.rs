@@ -56,6 +56,7 @@ pub mod replay;
 pub mod sampling;
 pub mod scene;
 pub mod stats;
+pub mod study;
 #[path = "../systems/mod.rs"]
 pub mod systems;
 pub mod table;

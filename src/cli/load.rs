@@ -200,7 +200,7 @@ pub fn settings(loaded: &Loaded) -> String {
     settings
 }
 
-fn parse_size(text: &str) -> Result<(u32, u32), String> {
+pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let form = || "expected WIDTHxHEIGHT in pixels, such as 640x480".to_owned();
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(form)?;
     let side = |digits: &str| digits.trim().parse::<u32>().map_err(|_| form());

@@ -16,6 +16,8 @@ pub mod replay;
 mod replay_text;
 mod report;
 pub mod schema;
+pub mod study;
+mod study_table;
 mod target;
 mod unused;
 
@@ -45,6 +47,8 @@ enum Command {
     Compare(compare::CompareArgs),
     /// Try to refute mutations: hold them against the target, detailed balance, and their own densities.
     Check(check::CheckArgs),
+    /// Render scenes in several ways, again and again, and tell what accuracy costs in time.
+    Study(study::StudyArgs),
     /// Print the scene format as a JSON Schema, for editors, or as a reference page.
     Schema(schema::SchemaArgs),
 }
@@ -70,6 +74,7 @@ pub fn run_with(cli: &Cli, registry: &Registry) -> miette::Result<ExitCode> {
         Command::Check(args) => check::run(args, registry),
         Command::Replay(args) => replay::run(args, registry),
         Command::Compare(args) => compare::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Study(args) => study::run(args, registry),
         Command::Schema(args) => schema::run(args).map(|()| ExitCode::SUCCESS),
     }
 }

@@ -112,7 +112,11 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
     if let (Some(chains), Some(findings)) = (render.as_chains(), &findings) {
         picture = chains.with_layers(picture, findings);
     }
-    write_exr(&output, &picture, &metadata(args, &loaded, &*render))?;
+    write_exr(
+        &output,
+        &picture,
+        &metadata(&args.scene.scene, args.seed, &loaded, &*render),
+    )?;
     let stops = args.exposure.unwrap_or(loaded.exposure);
     let tone = ToneMap::automatic(picture.view()).brighter(stops);
     write_png(&png, picture.view(), tone)?;
@@ -155,13 +159,14 @@ fn read_saved(path: &Path) -> Result<(PathBuf, Vec<u8>)> {
     Ok((path.to_owned(), bytes))
 }
 
-fn metadata(args: &RenderArgs, loaded: &Loaded, render: &dyn Rendering) -> PictureMetadata {
+/// How a picture of the scene in the file `scene` was made.
+pub(super) fn metadata(scene: &Path, seed: u64, loaded: &Loaded, render: &dyn Rendering) -> PictureMetadata {
     let steps = render.steps();
     let mut metadata = PictureMetadata {
-        scene: scene_name(&args.scene.scene),
+        scene: scene_name(scene),
         technique: loaded.plan.technique.name().to_owned(),
         settings: settings(loaded),
-        seed: args.seed,
+        seed,
         steps,
         software: concat!("chainlight ", env!("CARGO_PKG_VERSION")).to_owned(),
         ..PictureMetadata::default()

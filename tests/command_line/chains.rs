@@ -376,12 +376,7 @@ fn an_interrupt_while_chains_run_keeps_what_they_have() {
         .spawn()
         .expect("the program starts");
     std::thread::sleep(Duration::from_secs(2));
-    let id = child.id().to_string();
-    let sent = std::process::Command::new("kill")
-        .args(["-INT", &id])
-        .status()
-        .expect("kill");
-    assert!(sent.success());
+    super::interrupt(&child);
     assert_eq!(child.wait().expect("it ends").code(), Some(130));
     assert!(folder.path().join("cornell-glass.exr").exists() && folder.path().join("saved").exists());
 }

@@ -3,11 +3,12 @@
 mod black;
 mod chains;
 mod options;
+mod study;
 
 use chainlight::film::read_exr;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
@@ -27,6 +28,14 @@ fn chainlight(arguments: &[&str], folder: &Path) -> Command {
 
 fn run(arguments: &[&str], folder: &Path) -> Output {
     chainlight(arguments, folder).output().expect("the program starts")
+}
+
+/// Sends what Ctrl-C sends.
+#[cfg(unix)]
+fn interrupt(child: &Child) {
+    let id = child.id().to_string();
+    let sent = Command::new("kill").args(["-INT", &id]).status();
+    assert!(sent.expect("kill").success());
 }
 
 /// Standard output of a run that must succeed.
@@ -343,10 +352,7 @@ fn an_interrupt_writes_what_there_is_and_says_so() {
         .expect("the program starts");
     std::thread::sleep(Duration::from_millis(700));
     let began = Instant::now();
-    let killed = Command::new("sh")
-        .args(["-c", &format!("kill -INT {}", child.id())])
-        .status();
-    assert!(killed.expect("a shell").success());
+    interrupt(&child);
     let output = child.wait_with_output().expect("the program ends");
     assert!(began.elapsed() < Duration::from_secs(60));
     assert_eq!(output.status.code(), Some(130));
