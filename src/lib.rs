@@ -53,6 +53,7 @@ pub mod path;
 pub mod plan;
 pub mod render;
 pub mod replay;
+pub mod report;
 pub mod sampling;
 pub mod scene;
 pub mod stats;

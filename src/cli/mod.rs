@@ -17,6 +17,7 @@ mod replay_text;
 mod report;
 pub mod schema;
 pub mod study;
+mod study_runs;
 mod study_table;
 mod target;
 mod unused;

@@ -3,32 +3,25 @@
 use super::budget::{ThreadArgs, parse_seconds};
 use super::load::{Loaded, SceneArgs, parse_size, settings};
 use super::output::{note, print};
-use super::render::metadata;
-use super::report::missed;
+use super::study_runs::{Runner, picture_file};
 use super::study_table::table;
 use super::{interrupt, memory};
-use crate::film::write_exr;
+use crate::film::write_file;
 use crate::plan::{Registry, Technique};
-use crate::render::{Budget, RenderError, Stop, drive, start};
-use crate::study::{
-    Measure, Reference, ReferenceError, RunRecord, SceneStudy, Settings, Study, StudyError, Summary, WaySettings,
-    WayStudy, checkpoints, run_once,
-};
+use crate::report::{Against, Shown, error_curves, error_spectra, page};
+use crate::study::{Measure, Reference, ReferenceError, SceneStudy, Settings, Study, Summary, WaySettings};
 use clap::{Args, Parser};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use miette::{IntoDiagnostic, Result, WrapErr, miette};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// The study's file in its folder.
 const FILE: &str = "study.json";
-/// How many times as long as a run a reference is made where nobody says.
-const REFERENCE_RUNS: f64 = 32.0;
-/// Its seed is so far from those of runs.
-const REFERENCE_SEED: u64 = 1 << 48;
+
+/// The page that shows it.
+const PAGE: &str = "report.html";
 
 /// Arguments of `study`.
 #[derive(Args, Clone, Debug)]
@@ -49,10 +42,10 @@ pub struct StudyArgs {
     way: Vec<String>,
     /// Seconds of each run, start-up included; the picture is looked at after this, half of it, a quarter, and so on to a 64th
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, default_value = "8")]
-    time: Duration,
+    pub(super) time: Duration,
     /// Runs of every way, each with a seed of its own
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(2..=10_000))]
-    runs: u32,
+    pub(super) runs: u32,
     /// What pictures of the scene are compared with, an OpenEXR file
     #[arg(
         long,
@@ -60,24 +53,24 @@ pub struct StudyArgs {
         conflicts_with = "make_reference",
         required_unless_present = "make_reference"
     )]
-    reference: Option<PathBuf>,
+    pub(super) reference: Option<PathBuf>,
     /// Make the references first, for so many seconds each [default: 32 times as long as a run]
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, num_args = 0..=1, require_equals = true)]
-    make_reference: Option<Option<Duration>>,
+    pub(super) make_reference: Option<Option<Duration>>,
     /// What references are made with
     #[arg(long, value_name = "NAME", default_value = "bdpt", requires = "make_reference")]
-    reference_technique: Technique,
+    pub(super) reference_technique: Technique,
     /// The folder of the study. One that is there already is gone on with
     #[arg(short, long, value_name = "FOLDER")]
-    output: PathBuf,
+    pub(super) output: PathBuf,
     /// Film size in pixels instead of the scenes', such as 160x120
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<(u32, u32)>,
     /// The first run's seed; others follow
     #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
+    pub(super) seed: u64,
     #[command(flatten)]
-    threads: ThreadArgs,
+    pub(super) threads: ThreadArgs,
     /// Print all summaries as JSON
     #[arg(long)]
     json: bool,
@@ -92,15 +85,15 @@ struct WayOptions {
 }
 
 /// A scene of the study, ready to render in every way.
-struct Subject {
-    name: String,
-    file: PathBuf,
-    ways: Vec<Loaded>,
+pub(super) struct Subject {
+    pub(super) name: String,
+    pub(super) file: PathBuf,
+    pub(super) ways: Vec<Loaded>,
 }
 
 impl Subject {
     /// The picture in `file` as a reference of this scene.
-    fn reference(&self, file: &Path) -> Result<Reference, ReferenceError> {
+    pub(super) fn reference(&self, file: &Path) -> Result<Reference, ReferenceError> {
         let first = &self.ways[0];
         Reference::read(file, &first.scene, &settings(first))
     }
@@ -122,7 +115,7 @@ pub fn run(args: &StudyArgs, registry: &Registry) -> Result<ExitCode> {
     let path = args.output.join(FILE);
     let mut study = match Study::read(&path)? {
         Some(study) => {
-            study.is_of(&settings, &path)?;
+            study.is_of(&settings, &machine(), &path)?;
             study
         }
         None => Study::new(settings, machine()),
@@ -136,15 +129,28 @@ pub fn run(args: &StudyArgs, registry: &Registry) -> Result<ExitCode> {
         .wrap_err_with(|| format!("cannot make the folder {}", args.output.display()))?;
     let interrupt = interrupt::listen()?;
     let bar = progress_bar(u64::from(args.runs) * (subjects.len() * study.settings.ways.len()) as u64);
+    let runner = Runner {
+        args,
+        registry,
+        path: &path,
+        interrupt: &interrupt,
+        bar: &bar,
+    };
     for subject in &subjects {
-        let Some(reference) = args.reference_of(subject, &mut study, &path, &interrupt, &bar)? else {
+        let Some(reference) = runner.reference_of(subject, &mut study)? else {
             return Ok(interrupted(&bar));
         };
-        if !args.render(subject, &reference, &mut study, &path, &interrupt, &bar)? {
+        if !runner.render(subject, &reference, &mut study)? {
             return Ok(interrupted(&bar));
         }
     }
     bar.finish_and_clear();
+    let mut shown = Vec::new();
+    for scene in &study.scenes {
+        plot(scene, &args.output)?;
+        shown.push(Shown::read(scene, |way| picture_file(&args.output, &scene.name, way))?);
+    }
+    write_file(&args.output.join(PAGE), page(&study, &shown)?.as_bytes())?;
     let asked = |scene: &&SceneStudy| subjects.iter().any(|subject| subject.name == scene.name);
     let scenes: Vec<&SceneStudy> = study.scenes.iter().filter(asked).collect();
     print(&if args.json {
@@ -155,6 +161,22 @@ pub fn run(args: &StudyArgs, registry: &Registry) -> Result<ExitCode> {
         scenes.into_iter().map(table).collect::<Vec<String>>().join("\n\n")
     })?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Draws what a scene's runs say into the study's folder.
+fn plot(scene: &SceneStudy, folder: &Path) -> Result<()> {
+    let write = |name: String, svg: Option<String>| match svg {
+        Some(svg) => write_file(&folder.join(name), svg.as_bytes()),
+        None => Ok(()),
+    };
+    for measure in Measure::ALL {
+        for (against, more) in [(Against::Time, ""), (Against::Samples, "-samples")] {
+            let name = format!("{}-{}{more}.svg", scene.name, measure.file_name());
+            write(name, error_curves(scene, measure, against)?)?;
+        }
+    }
+    write(format!("{}-spectrum.svg", scene.name), error_spectra(scene)?)?;
+    Ok(())
 }
 
 /// All summaries of a scene, as JSON.
@@ -257,7 +279,7 @@ impl StudyArgs {
         Ok(subjects)
     }
 
-    fn load(&self, file: &Path, options: &[String], registry: &Registry) -> Result<Loaded> {
+    pub(super) fn load(&self, file: &Path, options: &[String], registry: &Registry) -> Result<Loaded> {
         let mut words = vec![file.as_os_str().to_owned()];
         words.extend(options.iter().map(Into::into));
         let mut parsed = WayOptions::try_parse_from(words)
@@ -267,154 +289,5 @@ impl StudyArgs {
         let loaded = parsed.load(registry)?;
         memory::check(&loaded, self.threads.count())?;
         Ok(loaded)
-    }
-
-    /// The reference of a scene, made now if it has to be; with it, the scene's place in the study. `None` if somebody interrupted it.
-    fn reference_of(
-        &self,
-        subject: &Subject,
-        study: &mut Study,
-        path: &Path,
-        interrupt: &AtomicBool,
-        bar: &ProgressBar,
-    ) -> Result<Option<Reference>> {
-        let known = study.scenes.iter().find(|scene| scene.name == subject.name);
-        if let Some(known) = known {
-            known.is_of(subject, self.reference.as_deref(), path)?;
-            return Ok(Some(subject.reference(Path::new(&known.reference.file))?));
-        }
-        let reference = match &self.reference {
-            Some(file) => subject.reference(file)?,
-            None => {
-                let file = self.output.join(format!("{}-reference.exr", subject.name));
-                if !self.make(subject, &file, interrupt, bar)? {
-                    return Ok(None);
-                }
-                subject.reference(&file)?
-            }
-        };
-        study
-            .scenes
-            .push(SceneStudy::of(subject, &study.settings.ways, &reference));
-        study.write(path)?;
-        Ok(Some(reference))
-    }
-
-    /// Makes a reference; whether nobody interrupted it.
-    fn make(&self, subject: &Subject, file: &Path, interrupt: &AtomicBool, bar: &ProgressBar) -> Result<bool> {
-        let seconds = self
-            .make_reference
-            .flatten()
-            .unwrap_or_else(|| self.time.mul_f64(REFERENCE_RUNS));
-        let options = ["--technique".to_owned(), self.reference_technique.name().to_owned()];
-        let registry = crate::systems::propose::mutations();
-        let loaded = self.load(&subject.file, &options, &registry)?;
-        for warning in missed(&loaded.plan) {
-            note(&format!("warning: the reference of {}: {warning}", subject.name));
-        }
-        bar.set_message(format!("{}: reference, {:.0} s", subject.name, seconds.as_secs_f64()));
-        let (seed, threads) = (self.seed.wrapping_add(REFERENCE_SEED), self.threads.count());
-        let started = start(
-            Arc::clone(&loaded.scene),
-            loaded.plan.clone(),
-            seed,
-            threads,
-            interrupt,
-            &|_| {},
-        );
-        let mut render = match started {
-            Err(RenderError::Interrupted) => return Ok(false),
-            started => started?,
-        };
-        let outcome = drive(&mut *render, Budget::Time(seconds), interrupt, &|_| bar.tick());
-        if outcome.stop == Stop::Interrupted {
-            return Ok(false);
-        }
-        let of = metadata(&subject.file, seed, &loaded, &*render);
-        write_exr(file, &render.picture(), &of)?;
-        Ok(true)
-    }
-
-    /// Takes the runs of a scene that are missing, way by way in turn; whether nobody interrupted it.
-    fn render(
-        &self,
-        subject: &Subject,
-        reference: &Reference,
-        study: &mut Study,
-        path: &Path,
-        interrupt: &AtomicBool,
-        bar: &ProgressBar,
-    ) -> Result<bool> {
-        let due = checkpoints(study.settings.seconds);
-        let threads = study.settings.threads;
-        let Some(scene) = study.scenes.iter().position(|scene| scene.name == subject.name) else {
-            return Ok(true);
-        };
-        let mut before = vec![vec![None; due.len()]; subject.ways.len()];
-        for run in 0..u64::from(self.runs) {
-            let seed = study.settings.seed.wrapping_add(run);
-            for (number, loaded) in subject.ways.iter().enumerate() {
-                let way = &study.scenes[scene].ways[number];
-                bar.set_message(format!("{}: {}, run {}", subject.name, way.name, run + 1));
-                let has_seed = |run: &RunRecord| run.seed == seed;
-                if way.runs.iter().any(has_seed) {
-                    bar.inc(1);
-                    continue;
-                }
-                let pictures = &mut before[number];
-                let record = run_once(
-                    &loaded.scene,
-                    &loaded.plan,
-                    (seed, threads),
-                    &due,
-                    reference,
-                    pictures,
-                    interrupt,
-                )?;
-                let Some(record) = record else {
-                    return Ok(false);
-                };
-                study.scenes[scene].ways[number].runs.push(record);
-                study.write(path)?;
-                bar.inc(1);
-            }
-        }
-        Ok(true)
-    }
-}
-
-impl SceneStudy {
-    fn of(subject: &Subject, ways: &[WaySettings], reference: &Reference) -> Self {
-        let scene = &subject.ways[0].scene;
-        let way = |(way, loaded): (&WaySettings, &Loaded)| WayStudy {
-            name: way.name.clone(),
-            technique: loaded.plan.technique.name().to_owned(),
-            settings: settings(loaded),
-            runs: Vec::new(),
-        };
-        Self {
-            name: subject.name.clone(),
-            file: subject.file.display().to_string(),
-            size: (scene.width, scene.height),
-            reference: reference.record.clone(),
-            ways: ways.iter().zip(&subject.ways).map(way).collect(),
-        }
-    }
-
-    /// Says that the runs in the study at `path` are of this scene and of this reference.
-    fn is_of(&self, subject: &Subject, reference: Option<&Path>, path: &Path) -> Result<(), StudyError> {
-        let other = |what: String| StudyError::Other {
-            path: path.to_owned(),
-            what,
-        };
-        if reference.is_some_and(|reference| reference.display().to_string() != self.reference.file) {
-            return Err(other(format!("reference of {}: {}", self.name, self.reference.file)));
-        }
-        for (way, loaded) in self.ways.iter().zip(&subject.ways) {
-            if way.settings != settings(loaded) {
-                return Err(other(format!("{} in {}: {}", way.name, self.name, way.settings)));
-            }
-        }
-        Ok(())
     }
 }

@@ -3,6 +3,7 @@
 use super::Reference;
 use super::study_file::{RunRecord, Snapshot, StageSeconds, Stated};
 use crate::color::Rgb;
+use crate::film::Picture;
 use crate::plan::{Plan, Stage};
 use crate::render::{Budget, ChainRender, DirectLight, RenderError, Rendering, Stop, drive, start};
 use crate::scene::Scene;
@@ -25,7 +26,7 @@ pub fn checkpoints(seconds: f64) -> Vec<f64> {
 }
 
 /// Renders once, with the seed `seed`, and looks at the picture at every one of the `due` times. Looking takes no time of the run's.
-/// `before` has the pictures of the run before, by due time, and is left with those of this one.
+/// `before` has the pictures of the run before, by due time, and is left with those of this one. The last picture comes with the record.
 ///
 /// A time that comes before the first step is passed over, and so is one that the step before has outlasted, but for the last. `None` if
 /// somebody interrupted it.
@@ -40,7 +41,7 @@ pub fn run_once(
     reference: &Reference,
     before: &mut [Option<Vec<Rgb>>],
     interrupt: &AtomicBool,
-) -> Result<Option<RunRecord>, RenderError> {
+) -> Result<Option<(RunRecord, Picture)>, RenderError> {
     let began = Instant::now();
     let started = start(Arc::clone(scene), plan.clone(), seed, threads, interrupt, &|_| {});
     let mut render = match started {
@@ -50,6 +51,7 @@ pub fn run_once(
     let start_seconds = began.elapsed().as_secs_f64();
     let mut spent = start_seconds;
     let mut snapshots = Vec::with_capacity(due.len());
+    let mut last = Picture::default();
     for (index, &due_at) in due.iter().enumerate() {
         let is_last = index + 1 == due.len();
         if spent >= due_at && !is_last {
@@ -84,14 +86,16 @@ pub fn run_once(
             }),
             spectrum,
         });
-        before[index] = Some(picture.rgb);
+        before[index] = Some(picture.rgb.clone());
+        last = picture;
     }
-    Ok(Some(RunRecord {
+    let record = RunRecord {
         seed,
         start_seconds,
         snapshots,
         stages: stages(&*render),
-    }))
+    };
+    Ok(Some((record, last)))
 }
 
 /// What every stage has cost so far, direct light that is rendered apart beside them.

@@ -239,11 +239,11 @@ impl Study {
         write_file(path, &bytes)
     }
 
-    /// Says that the study at `path` can be continued as one with these settings.
+    /// Says that the study at `path` can be continued as one with these settings, on this machine: times of two are not one curve.
     ///
     /// # Errors
     /// What differs.
-    pub fn is_of(&self, settings: &Settings, path: &Path) -> Result<(), StudyError> {
+    pub fn is_of(&self, settings: &Settings, machine: &str, path: &Path) -> Result<(), StudyError> {
         let (had, asked) = (&self.settings, settings);
         let differs = [
             ("--time", had.seconds != asked.seconds),
@@ -251,6 +251,7 @@ impl Study {
             ("--seed", had.seed != asked.seed),
             ("--size", had.size != asked.size),
             ("choice of ways", had.ways != asked.ways),
+            ("machine or version", self.machine != machine),
         ];
         match differs.into_iter().find(|(_, differs)| *differs) {
             None => Ok(()),

@@ -44,6 +44,18 @@ impl Measure {
         }
     }
 
+    /// Its name in files' names.
+    #[must_use]
+    pub const fn file_name(self) -> &'static str {
+        match self {
+            Self::Mse => "mse",
+            Self::RelMse => "relmse",
+            Self::RelMseTrimmed => "relmse-trimmed",
+            Self::Smape => "smape",
+            Self::Flip => "flip",
+        }
+    }
+
     const fn of(self, errors: &Errors) -> f64 {
         match self {
             Self::Mse => errors.mse,

@@ -15,7 +15,7 @@ fn arguments<'a>(scene: &'a str, more: &[&'a str]) -> Vec<&'a str> {
         "--size",
         "16x16",
         "--time",
-        "0.2",
+        "0.5",
         "-o",
         "study",
         "--threads",
@@ -38,7 +38,7 @@ fn a_study_has_runs_of_every_way_and_goes_on_where_it_ended() {
     let with = |runs| {
         let more = [
             "--techniques",
-            "pt,mlt",
+            "pt,bdpt",
             "--way",
             way,
             "--make-reference=2",
@@ -87,6 +87,17 @@ fn a_study_has_runs_of_every_way_and_goes_on_where_it_ended() {
         assert!(way.runs[0].snapshots.iter().all(|look| look.shared.is_none()));
         assert!(way.runs[1].snapshots.last().is_some_and(|look| look.shared.is_some()));
     }
+    for plot in ["relmse", "relmse-samples", "flip", "spectrum"] {
+        let svg = std::fs::read_to_string(folder.path().join(format!("study/cornell-box-{plot}.svg"))).expect(plot);
+        assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>") && svg.contains("chains"), "{plot}");
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{plot}: {svg}");
+    }
+    let page = std::fs::read_to_string(folder.path().join("study/report.html")).expect("a page");
+    assert!(page.starts_with("<!DOCTYPE html>") && page.trim_end().ends_with("</html>"));
+    // Three ways, the reference and three maps; five plots; and nothing that is somewhere else.
+    assert_eq!(page.matches("class=\"layer").count(), 7);
+    assert_eq!(page.matches("class=\"plot\"").count(), 5);
+    assert!(!page.contains("http://") && !page.contains("https://"));
     let own = first.scenes[0].reference.own_rel_mse.expect("known");
     assert!(own > 0.0 && own < ways[0].runs[0].snapshots[0].errors.rel_mse);
     with("3");
@@ -177,6 +188,12 @@ fn another_study_is_not_continued() {
         let error = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(!output.status.success() && error.contains(what), "{error}");
     }
+    // A reference that is no longer the same.
+    let reference = folder.path().join("study/cornell-box-reference.exr");
+    let again = ["render", &cornell, "--size", "16x16", "--spp", "8", "-o", "study/cornell-box-reference.exr"];
+    succeed(&again, folder.path());
+    let error = String::from_utf8_lossy(&with(&[]).stderr).into_owned();
+    assert!(reference.exists() && error.contains("reference of cornell-box"), "{error}");
     let path = folder.path().join("study/study.json");
     std::fs::write(&path, "{}").expect("written");
     assert!(matches!(Study::read(&path), Err(StudyError::Format { .. })));

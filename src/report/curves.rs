@@ -1,0 +1,97 @@
+//! Error against time, or against samples.
+
+use super::log_axis::{label, range};
+use super::{FONT, PlotError, SIZE, color};
+use crate::study::{Measure, Point, SceneStudy, Summary};
+use plotters::prelude::*;
+
+/// What errors are drawn against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Against {
+    /// Seconds, start-up included.
+    Time,
+    /// Samples, or mutations, per pixel.
+    Samples,
+}
+
+impl Against {
+    const fn of(self, point: &Point) -> f64 {
+        match self {
+            Self::Time => point.seconds,
+            Self::Samples => point.per_pixel,
+        }
+    }
+
+    const fn words(self) -> &'static str {
+        match self {
+            Self::Time => "seconds, start-up included",
+            Self::Samples => "samples, or mutations, per pixel",
+        }
+    }
+}
+
+/// The medians of all ways in a scene with bands from the 10 % to the 90 % quantile, both axes logarithmic, as SVG. Curves end where they
+/// come near the reference's own error. `None` where there is nothing to draw.
+///
+/// # Errors
+/// Whatever keeps it from being drawn.
+pub fn error_curves(scene: &SceneStudy, measure: Measure, against: Against) -> Result<Option<String>, PlotError> {
+    let curves: Vec<(String, Vec<Point>)> = scene
+        .ways
+        .iter()
+        .map(|way| {
+            let points = Summary::of(scene, way, measure).points;
+            (way.name.clone(), points.into_iter().filter(|point| !point.is_reference).collect())
+        })
+        .collect();
+    let all = || curves.iter().flat_map(|(_, points)| points);
+    let across = range(all().map(|point| against.of(point)));
+    let up = range(all().flat_map(|point| point.quantiles));
+    let (Some(across), Some(up)) = (across, up) else {
+        return Ok(None);
+    };
+    let mut svg = String::new();
+    {
+        let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
+        root.fill(&WHITE)?;
+        let mut chart = ChartBuilder::on(&root)
+            .caption(format!("{}: {}", scene.name, measure.name()), (FONT, 18))
+            .margin(12)
+            .x_label_area_size(44)
+            .y_label_area_size(64)
+            .build_cartesian_2d(across.log_scale(), up.clone().log_scale())?;
+        chart
+            .configure_mesh()
+            .x_desc(against.words())
+            .y_desc(measure.name())
+            .x_label_formatter(&|v| label(*v))
+            .y_label_formatter(&|v| label(*v))
+            .label_style((FONT, 13))
+            .light_line_style(BLACK.mix(0.06))
+            .bold_line_style(BLACK.mix(0.15))
+            .draw()?;
+        for (number, (name, points)) in curves.iter().enumerate() {
+            let color = color(number);
+            let lowest = up.start;
+            let at = |quantile: usize| move |point: &Point| (against.of(point), point.quantiles[quantile].max(lowest));
+            let mut band: Vec<(f64, f64)> = points.iter().map(at(2)).collect();
+            band.extend(points.iter().rev().map(at(0)));
+            chart.draw_series([Polygon::new(band, color.mix(0.18))])?;
+            let line: Vec<(f64, f64)> = points.iter().map(at(1)).collect();
+            chart
+                .draw_series([PathElement::new(line.clone(), color.stroke_width(2))])?
+                .label(name)
+                .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], color.stroke_width(3)));
+            chart.draw_series(line.into_iter().map(|point| Circle::new(point, 3, color.filled())))?;
+        }
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperRight)
+            .background_style(WHITE.mix(0.85))
+            .border_style(BLACK.mix(0.2))
+            .label_font((FONT, 14))
+            .draw()?;
+        root.present()?;
+    }
+    Ok(Some(svg))
+}

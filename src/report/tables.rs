@@ -1,0 +1,116 @@
+//! Tables of a page.
+
+use super::markup::escaped;
+use crate::study::{Interval, Measure, SceneStudy, Summary, TimeTo, WayStudy};
+use std::fmt::Write;
+
+/// What all runs say, of one measure.
+pub(super) fn summaries(scene: &SceneStudy, measure: Measure) -> String {
+    let mut rows = String::new();
+    for way in &scene.ways {
+        let summary = Summary::of(scene, way, measure);
+        let Some(end) = summary.points.last() else { continue };
+        let [low, middle, high] = end.quantiles;
+        let time = |error: f64| seconds(summary.times.iter().find(|time| time.error == error));
+        // Writing to a String cannot fail.
+        let _ = write!(
+            rows,
+            "<tr><th>{}</th><td>{}</td><td>{:.2}</td><td>{middle:.2e}</td><td>{low:.2e} to {high:.2e}</td><td>{}</td><td>{}</td>\
+             <td>{}</td><td>{}</td><td>{}</td></tr>",
+            escaped(&way.name),
+            end.runs,
+            end.seconds,
+            interval(summary.slope, 2),
+            time(1e-1),
+            time(1e-2),
+            time(1e-3),
+            summary.efficiency.map_or_else(|| "1".to_owned(), |of| interval(Some(of), 2)),
+        );
+    }
+    format!(
+        "<table><caption>{} at the end of runs; intervals of 95 %</caption><tr><th></th><th>runs</th><th>s</th><th>median</th>\
+         <th>10 % to 90 %</th><th>slope</th><th>s to 1e-1</th><th>s to 1e-2</th><th>s to 1e-3</th><th>efficiency</th></tr>{rows}</table>",
+        escaped(measure.name())
+    )
+}
+
+/// Bias apart from variance, and the error that renders state against that which they have.
+pub(super) fn bias(scene: &SceneStudy) -> String {
+    let mut rows = String::new();
+    for way in &scene.ways {
+        let summary = Summary::of(scene, way, Measure::RelMse);
+        let squared = summary.squared_bias.map_or_else(
+            || "not known".to_owned(),
+            |of| format!("{:.1e} ({:.1e} to {:.1e})", of.value, of.bounds[0], of.bounds[1]),
+        );
+        let last: Vec<_> = way.runs.iter().filter_map(|run| run.snapshots.last()).collect();
+        let mean = |values: Vec<f64>| (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64);
+        let show = |value: Option<f64>| value.map_or_else(|| "not known".to_owned(), |value| format!("{value:.4}"));
+        let brightness = mean(last.iter().filter_map(|look| look.errors.mean_ratio).collect());
+        let stated = mean(last.iter().filter_map(|look| Some(look.stated?.rms)).collect());
+        let _ = write!(
+            rows,
+            "<tr><th>{}</th><td>{squared}</td><td>{}</td><td>{}</td></tr>",
+            escaped(&way.name),
+            show(brightness),
+            show(stated)
+        );
+    }
+    format!(
+        "<table><caption>Bias, at the end of runs</caption><tr><th></th><th>squared bias, relative (95 %)</th>\
+         <th>brightness over that of the reference</th><th>relative error over blocks that renders state</th></tr>{rows}</table>"
+    )
+}
+
+/// What every stage costs, as a share of the time in all of them.
+pub(super) fn stages(scene: &SceneStudy) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for stage in scene.ways.iter().flat_map(|way| &way.runs).flat_map(|run| &run.stages) {
+        if !names.contains(&stage.stage.as_str()) {
+            names.push(&stage.stage);
+        }
+    }
+    let seconds = |way: &WayStudy, name: &str| -> f64 {
+        let stages = way.runs.iter().flat_map(|run| &run.stages);
+        stages.filter(|stage| stage.stage == name).map(|stage| stage.seconds).sum()
+    };
+    let head: String = names.iter().map(|name| format!("<th>{}</th>", escaped(name))).collect();
+    let mut rows = String::new();
+    for way in &scene.ways {
+        let all: f64 = names.iter().map(|name| seconds(way, name)).sum();
+        let cell = |name: &&str| {
+            let share = 100.0 * seconds(way, name) / all.max(1e-12);
+            format!("<td><span class=\"bar\" style=\"width:{:.0}px\"></span>{share:.1} %</td>", 0.8 * share)
+        };
+        let start: f64 = way.runs.iter().map(|run| run.start_seconds).sum::<f64>() / way.runs.len().max(1) as f64;
+        let cells: String = names.iter().map(cell).collect();
+        let _ = write!(rows, "<tr><th>{}</th><td>{start:.2} s</td>{cells}</tr>", escaped(&way.name));
+    }
+    format!(
+        "<table><caption>What stages cost: seconds before the first step, and shares of the time of steps</caption>\
+         <tr><th></th><th>start</th>{head}</tr>{rows}</table>"
+    )
+}
+
+fn interval(interval: Option<Interval>, digits: usize) -> String {
+    match interval {
+        None => "not known".to_owned(),
+        Some(Interval {
+            value,
+            bounds: [low, high],
+        }) => format!("{value:.digits$} ({low:.digits$} to {high:.digits$})"),
+    }
+}
+
+fn seconds(time: Option<&TimeTo>) -> String {
+    let show = |v: f64| if v.is_finite() { format!("{v:.2}") } else { "longer".to_owned() };
+    match time {
+        None => "no telling".to_owned(),
+        Some(time) if !time.seconds.value.is_finite() => "longer".to_owned(),
+        Some(time) => {
+            let [low, high] = time.seconds.bounds;
+            let most = if time.at_most { "at most " } else { "" };
+            format!("{most}{} ({} to {})", show(time.seconds.value), show(low), show(high))
+        }
+    }
+}
