@@ -8,9 +8,7 @@ use super::study::{StudyArgs, Subject};
 use crate::film::{PictureMetadata, write_exr};
 use crate::plan::Registry;
 use crate::render::{Budget, RenderError, Stop, drive, start};
-use crate::study::{
-    Reference, RunRecord, SceneStudy, Study, StudyError, WaySettings, WayStudy, checkpoints, run_once,
-};
+use crate::study::{Reference, RunRecord, SceneStudy, Study, StudyError, WaySettings, WayStudy, checkpoints, run_once};
 use indicatif::ProgressBar;
 use miette::Result;
 use std::path::{Path, PathBuf};
@@ -34,14 +32,15 @@ pub(super) struct Runner<'a> {
 
 impl Runner<'_> {
     /// The reference of a scene, made now if it has to be; with it, the scene's place in the study. `None` if somebody interrupted it.
-    pub(super) fn reference_of(
-        &self,
-        subject: &Subject,
-        study: &mut Study,
-    ) -> Result<Option<Reference>> {
+    pub(super) fn reference_of(&self, subject: &Subject, study: &mut Study) -> Result<Option<Reference>> {
         let known = study.scenes.iter().find(|scene| scene.name == subject.name);
         if let Some(known) = known {
-            let reference = subject.reference(self.args.reference.as_deref().unwrap_or(Path::new(&known.reference.file)))?;
+            let reference = subject.reference(
+                self.args
+                    .reference
+                    .as_deref()
+                    .unwrap_or(Path::new(&known.reference.file)),
+            )?;
             known.is_of(subject, &reference, self.path)?;
             return Ok(Some(reference));
         }
@@ -69,12 +68,16 @@ impl Runner<'_> {
             .make_reference
             .flatten()
             .unwrap_or_else(|| self.args.time.mul_f64(REFERENCE_RUNS));
-        let options = ["--technique".to_owned(), self.args.reference_technique.name().to_owned()];
+        let options = [
+            "--technique".to_owned(),
+            self.args.reference_technique.name().to_owned(),
+        ];
         let loaded = self.args.load(&subject.file, &options, self.registry)?;
         for warning in missed(&loaded.plan) {
             note(&format!("warning: the reference of {}: {warning}", subject.name));
         }
-        self.bar.set_message(format!("{}: reference, {:.0} s", subject.name, seconds.as_secs_f64()));
+        self.bar
+            .set_message(format!("{}: reference, {:.0} s", subject.name, seconds.as_secs_f64()));
         let (seed, threads) = (self.args.seed.wrapping_add(REFERENCE_SEED), self.args.threads.count());
         let started = start(
             Arc::clone(&loaded.scene),
@@ -88,7 +91,9 @@ impl Runner<'_> {
             Err(RenderError::Interrupted) => return Ok(false),
             started => started?,
         };
-        let outcome = drive(&mut *render, Budget::Time(seconds), self.interrupt, &|_| self.bar.tick());
+        let outcome = drive(&mut *render, Budget::Time(seconds), self.interrupt, &|_| {
+            self.bar.tick()
+        });
         if outcome.stop == Stop::Interrupted {
             return Ok(false);
         }
@@ -98,12 +103,7 @@ impl Runner<'_> {
     }
 
     /// Takes the runs of a scene that are missing, way by way in turn; whether nobody interrupted it.
-    pub(super) fn render(
-        &self,
-        subject: &Subject,
-        reference: &Reference,
-        study: &mut Study,
-    ) -> Result<bool> {
+    pub(super) fn render(&self, subject: &Subject, reference: &Reference, study: &mut Study) -> Result<bool> {
         let due = checkpoints(study.settings.seconds);
         let threads = study.settings.threads;
         let Some(scene) = study.scenes.iter().position(|scene| scene.name == subject.name) else {
@@ -114,7 +114,8 @@ impl Runner<'_> {
             let seed = study.settings.seed.wrapping_add(run);
             for (number, loaded) in subject.ways.iter().enumerate() {
                 let way = &study.scenes[scene].ways[number];
-                self.bar.set_message(format!("{}: {}, run {}", subject.name, way.name, run + 1));
+                self.bar
+                    .set_message(format!("{}: {}, run {}", subject.name, way.name, run + 1));
                 let has_seed = |run: &RunRecord| run.seed == seed;
                 if way.runs.iter().any(has_seed) {
                     self.bar.inc(1);

@@ -41,7 +41,10 @@ pub fn error_curves(scene: &SceneStudy, measure: Measure, against: Against) -> R
         .iter()
         .map(|way| {
             let points = Summary::of(scene, way, measure).points;
-            (way.name.clone(), points.into_iter().filter(|point| !point.is_reference).collect())
+            (
+                way.name.clone(),
+                points.into_iter().filter(|point| !point.is_reference).collect(),
+            )
         })
         .collect();
     let all = || curves.iter().flat_map(|(_, points)| points);
@@ -66,7 +69,9 @@ pub fn error_curves(scene: &SceneStudy, measure: Measure, against: Against) -> R
             .y_desc(measure.name())
             .x_label_formatter(&|v| label(*v))
             .y_label_formatter(&|v| label(*v))
-            .label_style((FONT, 13))
+            .max_light_lines(5)
+            .label_style((FONT, 14))
+            .axis_desc_style((FONT, 15))
             .light_line_style(BLACK.mix(0.06))
             .bold_line_style(BLACK.mix(0.15))
             .draw()?;

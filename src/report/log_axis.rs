@@ -19,7 +19,7 @@ pub(super) fn label(value: f64) -> String {
     let rounded = power.round();
     if (power - rounded).abs() < 1e-9 && rounded.abs() > 2.5 {
         format!("1e{rounded}")
-    } else if value >= 1000.0 || value < 0.001 {
+    } else if !(0.001..1000.0).contains(&value) {
         format!("{value:.0e}")
     } else {
         let text = format!("{value:.3}");
@@ -34,7 +34,10 @@ mod tests {
     #[test]
     fn ranges_hold_all_values_and_a_margin() {
         let of = range([0.0, 3.0, f64::INFINITY, 0.01].into_iter()).expect("values");
-        assert!(of.start < 0.01 && of.start > 0.005 && of.end > 3.0 && of.end < 6.0, "{of:?}");
+        assert!(
+            of.start < 0.01 && of.start > 0.005 && of.end > 3.0 && of.end < 6.0,
+            "{of:?}"
+        );
         let one = range([2.0].into_iter()).expect("a value");
         assert!(one.start < 2.0 && one.end > 2.0);
         assert_eq!(range([0.0, f64::NAN].into_iter()), None);

@@ -17,7 +17,7 @@ use plotters::drawing::DrawingAreaErrorKind;
 use plotters::style::RGBColor;
 
 /// Pixels of a plot.
-const SIZE: (u32, u32) = (760, 520);
+const SIZE: (u32, u32) = (640, 440);
 /// A plot's font.
 const FONT: &str = "sans-serif";
 

@@ -52,9 +52,10 @@ fn settings(study: &Study) -> String {
 
 fn of_scene(scene: &SceneStudy, shown: &Shown) -> Result<String, PlotError> {
     let reference = &scene.reference;
-    let own = reference
-        .own_rel_mse
-        .map_or_else(|| "unknown".to_owned(), |own| format!("{own:.2e}, taken off all errors"));
+    let own = reference.own_rel_mse.map_or_else(
+        || "unknown".to_owned(),
+        |own| format!("{own:.2e}, taken off all errors"),
+    );
     let mut out = format!(
         "<section>\n<h2>{}</h2>\n<p>{} x {} pixels of <code>{}</code>. Reference: <code>{}</code>{}; its own relMSE is {own}.</p>\n",
         escaped(&scene.name),

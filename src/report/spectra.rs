@@ -43,7 +43,9 @@ pub fn error_spectra(scene: &SceneStudy) -> Result<Option<String>, PlotError> {
             .y_desc("power per frequency, relative to even noise")
             .x_label_formatter(&name)
             .y_label_formatter(&|v| label(*v))
+            .max_light_lines(5)
             .label_style((FONT, 12))
+            .axis_desc_style((FONT, 15))
             .light_line_style(BLACK.mix(0.06))
             .bold_line_style(BLACK.mix(0.15))
             .draw()?;

@@ -24,7 +24,9 @@ pub(super) fn summaries(scene: &SceneStudy, measure: Measure) -> String {
             time(1e-1),
             time(1e-2),
             time(1e-3),
-            summary.efficiency.map_or_else(|| "1".to_owned(), |of| interval(Some(of), 2)),
+            summary
+                .efficiency
+                .map_or_else(|| "1".to_owned(), |of| interval(Some(of), 2)),
         );
     }
     format!(
@@ -72,7 +74,10 @@ pub(super) fn stages(scene: &SceneStudy) -> String {
     }
     let seconds = |way: &WayStudy, name: &str| -> f64 {
         let stages = way.runs.iter().flat_map(|run| &run.stages);
-        stages.filter(|stage| stage.stage == name).map(|stage| stage.seconds).sum()
+        stages
+            .filter(|stage| stage.stage == name)
+            .map(|stage| stage.seconds)
+            .sum()
     };
     let head: String = names.iter().map(|name| format!("<th>{}</th>", escaped(name))).collect();
     let mut rows = String::new();
@@ -80,11 +85,18 @@ pub(super) fn stages(scene: &SceneStudy) -> String {
         let all: f64 = names.iter().map(|name| seconds(way, name)).sum();
         let cell = |name: &&str| {
             let share = 100.0 * seconds(way, name) / all.max(1e-12);
-            format!("<td><span class=\"bar\" style=\"width:{:.0}px\"></span>{share:.1} %</td>", 0.8 * share)
+            format!(
+                "<td><span class=\"bar\" style=\"width:{:.0}px\"></span>{share:.1} %</td>",
+                0.8 * share
+            )
         };
         let start: f64 = way.runs.iter().map(|run| run.start_seconds).sum::<f64>() / way.runs.len().max(1) as f64;
         let cells: String = names.iter().map(cell).collect();
-        let _ = write!(rows, "<tr><th>{}</th><td>{start:.2} s</td>{cells}</tr>", escaped(&way.name));
+        let _ = write!(
+            rows,
+            "<tr><th>{}</th><td>{start:.2} s</td>{cells}</tr>",
+            escaped(&way.name)
+        );
     }
     format!(
         "<table><caption>What stages cost: seconds before the first step, and shares of the time of steps</caption>\
@@ -103,7 +115,13 @@ fn interval(interval: Option<Interval>, digits: usize) -> String {
 }
 
 fn seconds(time: Option<&TimeTo>) -> String {
-    let show = |v: f64| if v.is_finite() { format!("{v:.2}") } else { "longer".to_owned() };
+    let show = |v: f64| {
+        if v.is_finite() {
+            format!("{v:.2}")
+        } else {
+            "longer".to_owned()
+        }
+    };
     match time {
         None => "no telling".to_owned(),
         Some(time) if !time.seconds.value.is_finite() => "longer".to_owned(),

@@ -89,7 +89,10 @@ fn a_study_has_runs_of_every_way_and_goes_on_where_it_ended() {
     }
     for plot in ["relmse", "relmse-samples", "flip", "spectrum"] {
         let svg = std::fs::read_to_string(folder.path().join(format!("study/cornell-box-{plot}.svg"))).expect(plot);
-        assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>") && svg.contains("chains"), "{plot}");
+        assert!(
+            svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>") && svg.contains("chains"),
+            "{plot}"
+        );
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{plot}: {svg}");
     }
     let page = std::fs::read_to_string(folder.path().join("study/report.html")).expect("a page");
@@ -190,10 +193,22 @@ fn another_study_is_not_continued() {
     }
     // A reference that is no longer the same.
     let reference = folder.path().join("study/cornell-box-reference.exr");
-    let again = ["render", &cornell, "--size", "16x16", "--spp", "8", "-o", "study/cornell-box-reference.exr"];
+    let again = [
+        "render",
+        &cornell,
+        "--size",
+        "16x16",
+        "--spp",
+        "8",
+        "-o",
+        "study/cornell-box-reference.exr",
+    ];
     succeed(&again, folder.path());
     let error = String::from_utf8_lossy(&with(&[]).stderr).into_owned();
-    assert!(reference.exists() && error.contains("reference of cornell-box"), "{error}");
+    assert!(
+        reference.exists() && error.contains("reference of cornell-box"),
+        "{error}"
+    );
     let path = folder.path().join("study/study.json");
     std::fs::write(&path, "{}").expect("written");
     assert!(matches!(Study::read(&path), Err(StudyError::Format { .. })));
