@@ -192,6 +192,9 @@ impl SceneStudy {
         if reference.record != self.reference {
             return Err(other(format!("reference of {}", self.name)));
         }
+        if self.ways.len() != subject.ways.len() {
+            return Err(other(format!("number of ways in {}: {}", self.name, self.ways.len())));
+        }
         for (way, loaded) in self.ways.iter().zip(&subject.ways) {
             if way.settings != settings(loaded) {
                 return Err(other(format!("{} in {}: {}", way.name, self.name, way.settings)));

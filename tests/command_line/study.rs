@@ -191,6 +191,15 @@ fn another_study_is_not_continued() {
         let error = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(!output.status.success() && error.contains(what), "{error}");
     }
+    // A file from which a way is gone.
+    let path = folder.path().join("study/study.json");
+    let whole = std::fs::read(&path).expect("a study");
+    let mut edited = read(folder.path());
+    edited.scenes[0].ways.clear();
+    edited.write(&path).expect("written");
+    let error = String::from_utf8_lossy(&with(&[]).stderr).into_owned();
+    assert!(error.contains("number of ways in cornell-box: 0"), "{error}");
+    std::fs::write(&path, whole).expect("written");
     // A reference that is no longer the same.
     let reference = folder.path().join("study/cornell-box-reference.exr");
     let again = [
@@ -209,7 +218,6 @@ fn another_study_is_not_continued() {
         reference.exists() && error.contains("reference of cornell-box"),
         "{error}"
     );
-    let path = folder.path().join("study/study.json");
     std::fs::write(&path, "{}").expect("written");
     assert!(matches!(Study::read(&path), Err(StudyError::Format { .. })));
     let error = String::from_utf8_lossy(&with(&[]).stderr).into_owned();
