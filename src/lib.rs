@@ -46,6 +46,7 @@ pub mod cli;
 pub mod color;
 pub mod film;
 pub mod geometry;
+pub mod layer;
 pub mod light;
 pub mod material;
 pub mod math;

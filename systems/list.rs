@@ -107,6 +107,8 @@ list! {
     ACCEPT_LISTS = ACCEPT, accept::accept_lists;
     /// Adds each chain's list to the film.
     SPLAT_LISTS = SPLAT, splat::splat_lists;
+    /// Adds its layers to theirs.
+    SPLAT_LIST_LAYERS = SPLAT, splat::splat_list_layers;
 
     /// Traces whole paths, one after another.
     TRACE_DEPTH_FIRST = TRACE, trace::trace_depth_first, tracing(Traces::Both);
@@ -118,6 +120,8 @@ list! {
 
     /// Sums a path's light from its vertices.
     GATHER_CONTRIBUTION = EVALUATE, evaluate::gather_contribution;
+    /// Splits it among layers.
+    SPLIT_LAYERS = EVALUATE, evaluate::split_layers;
     /// Writes the target and the splats of every proposal.
     EVALUATE_TARGETS = EVALUATE, evaluate::evaluate_targets;
     /// Adds up what independent proposals tell of the normalization.
@@ -135,6 +139,10 @@ list! {
     COUNT_VISITS = ACCEPT, accept::count_visits, in_phases(Phases::STEP);
     /// Adds both states of every decision to the film, by expectation.
     SPLAT_STATES = SPLAT, splat::splat_states;
+    /// Adds the layers of both states to theirs.
+    SPLAT_STATE_LAYERS = SPLAT, splat::splat_state_layers;
+    /// Takes the layers of accepted proposals over.
+    TAKE_LAYERS = SPLAT, splat::take_layers, in_phases(TAKES);
     /// Takes the splats of accepted proposals over.
     TAKE_SPLATS = SPLAT, splat::take_splats, in_phases(TAKES);
 
@@ -142,4 +150,6 @@ list! {
     ACCEPT_ALWAYS = ACCEPT, accept::accept_always;
     /// Adds each chain's sample to the film.
     SPLAT_SAMPLES = SPLAT, splat::splat_samples;
+    /// Adds its layers to theirs.
+    SPLAT_SAMPLE_LAYERS = SPLAT, splat::splat_sample_layers;
 }

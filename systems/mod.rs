@@ -41,6 +41,7 @@ pub mod accept;
 pub mod bootstrap;
 pub mod chains;
 pub mod evaluate;
+pub mod layers;
 pub mod list;
 pub mod paths;
 pub mod propose;

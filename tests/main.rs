@@ -7,6 +7,7 @@ mod check;
 mod command_line;
 mod geometry;
 mod histogram;
+mod layers;
 mod path_space;
 mod physics;
 mod rendering;

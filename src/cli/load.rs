@@ -1,6 +1,7 @@
 //! What the commands that take a scene have in common: its arguments, and loading it.
 
 use super::chains::ChainArgs;
+use super::layers::LayerArgs;
 use super::output::note;
 use super::unused;
 use crate::path::bidirectional::Weights;
@@ -40,6 +41,8 @@ pub struct SceneArgs {
     pub mutations: MutationArgs,
     #[command(flatten)]
     pub chains: ChainArgs,
+    #[command(flatten)]
+    pub layers: LayerArgs,
 }
 
 /// How techniques with both ends join subpaths.
@@ -143,6 +146,7 @@ impl SceneArgs {
             strategy: self.strategies.strategy,
             heuristic: self.strategies.heuristic.unwrap_or_default(),
             direct: self.strategies.direct,
+            layers: self.layers.of(&scene)?,
         };
         let plan = Plan::with(&scene, technique, &options)?;
         Ok(Loaded {

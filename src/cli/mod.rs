@@ -6,6 +6,7 @@ pub mod check;
 pub mod compare;
 mod findings;
 mod interrupt;
+mod layers;
 mod load;
 mod memory;
 mod output;

@@ -7,7 +7,7 @@ use super::target::check_writable;
 use super::{interrupt, memory};
 use crate::film::write_file;
 use crate::plan::{Registry, Stage, SystemSpec, Traces};
-use crate::render::{DirectLight, Rendering, TileWorld, drive, start};
+use crate::render::{DirectLight, LayerRecord, Rendering, TileWorld, drive, start};
 use crate::systems::list::TRACE_LOOP;
 use crate::systems::tile::Counters;
 use crate::systems::{Span, SystemCost};
@@ -67,6 +67,9 @@ struct Report {
     /// The same of direct light, where it is rendered apart, with shares of the time of both.
     #[serde(skip_serializing_if = "Option::is_none")]
     direct: Option<Box<Report>>,
+    /// What the layers cost that light was split into.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    layers: Vec<LayerRecord>,
 }
 
 /// What a part of a render has counted, and what it cost.
@@ -166,6 +169,7 @@ fn report(render: &dyn Rendering, wall: Duration) -> Report {
     let direct = direct.as_ref().map(|part| Box::new(of_part(part)));
     Report {
         direct,
+        layers: render.layers().into_iter().map(|layer| layer.record).collect(),
         ..of_part(&own)
     }
 }
@@ -239,6 +243,7 @@ fn report_of(render: &dyn Rendering, part: &Part, wall: Duration, all: Duration)
             0,
         ),
         direct: None,
+        layers: Vec::new(),
     }
 }
 
@@ -290,6 +295,9 @@ fn text(report: &Report) -> String {
     let mut out = out.trim_end().to_owned();
     if let Some(direct) = &report.direct {
         out += &format!("\n\n{}", text(direct));
+    }
+    if !report.layers.is_empty() {
+        out += &format!("\n\n{}", super::layers::table(&report.layers, report.wall_seconds));
     }
     out
 }

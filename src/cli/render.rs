@@ -8,7 +8,7 @@ use super::target::check_writable;
 use super::{interrupt, memory};
 use crate::film::{PictureMetadata, ToneMap, write_exr, write_file, write_png};
 use crate::plan::Registry;
-use crate::render::{Findings, Progress, RenderError, Rendering, drive, resume, start};
+use crate::render::{Findings, LayerFinding, Progress, RenderError, Rendering, drive, resume, start};
 use crate::scene::description::EXPOSURE;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -112,6 +112,8 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
     if let (Some(chains), Some(findings)) = (render.as_chains(), &findings) {
         picture = chains.with_layers(picture, findings);
     }
+    let layers = render.layers();
+    picture = LayerFinding::add_to(&layers, picture);
     write_exr(
         &output,
         &picture,
@@ -123,7 +125,9 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
     if let Some(path) = &args.save {
         write_file(path, &render.save())?;
     }
-    let report = Report::new(args, &loaded, &*render, outcome, &picture, &output, findings).shown(tone);
+    let report = Report::new(args, &loaded, &*render, outcome, &picture, &output, findings)
+        .shown(tone)
+        .split(&layers);
     if args.json {
         print(&serde_json::to_string_pretty(&report).into_diagnostic()?)?;
     } else {

@@ -9,7 +9,7 @@ use crate::render::RenderError;
 use crate::replay::{Moment, Part, ReplayError, replay};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use miette::{IntoDiagnostic, Result};
+use miette::{IntoDiagnostic, Result, miette};
 use std::process::ExitCode;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -45,6 +45,12 @@ const BAR_STEPS: u64 = 1000;
 /// # Errors
 /// A scene that cannot be loaded, or a chain or step that there is not.
 pub fn run(args: &ReplayArgs, registry: &Registry) -> Result<ExitCode> {
+    if args.scene.layers.is_given() {
+        return Err(miette!(
+            help = "leave --layers and --layer out",
+            "layers have no effect on a replay: it shows single paths"
+        ));
+    }
     let loaded = args.scene.load(registry)?;
     let interrupt = interrupt::listen()?;
     let moment = Moment {

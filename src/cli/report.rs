@@ -5,7 +5,7 @@ use super::output::{count, note};
 use super::render::RenderArgs;
 use crate::film::{ImageView, Picture, ToneMap};
 use crate::plan::Plan;
-use crate::render::{ChainRender, DirectLight, Findings, Outcome, Rendering, Stop, blank};
+use crate::render::{ChainRender, DirectLight, Findings, LayerFinding, LayerRecord, Outcome, Rendering, Stop, blank};
 use crate::stats::error::PictureError;
 use serde::Serialize;
 use std::path::Path;
@@ -50,6 +50,9 @@ pub(super) struct Report {
     saturated: u64,
     vanished: u64,
     chains: Option<Findings>,
+    /// What the layers cost that light was split into.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    layers: Vec<LayerRecord>,
     warnings: Vec<String>,
     /// Those of the warnings that are yet to be told.
     #[serde(skip)]
@@ -119,6 +122,7 @@ impl Report {
             saturated: tally.saturated,
             vanished: tally.vanished,
             chains,
+            layers: Vec::new(),
             warnings,
             untold,
         }
@@ -130,6 +134,12 @@ impl Report {
             png_exposure: tone.exposure,
             ..self
         }
+    }
+
+    /// With what its layers cost.
+    pub(super) fn split(self, layers: &[LayerFinding]) -> Self {
+        let layers = layers.iter().map(|layer| layer.record.clone()).collect();
+        Self { layers, ..self }
     }
 
     /// The summary for people.
@@ -165,6 +175,10 @@ impl Report {
         }
         if let Some(findings) = &self.chains {
             out += &super::findings::text(findings);
+        }
+        if !self.layers.is_empty() {
+            let seconds = self.render_seconds + self.bootstrap_seconds.unwrap_or(0.0);
+            out += &format!("{}\n", super::layers::table(&self.layers, seconds));
         }
         out += &format!("wrote {} and {}", self.output, png.display());
         out

@@ -11,6 +11,7 @@
 pub mod conductor;
 pub mod dielectric;
 pub mod diffuse;
+mod event;
 mod frame;
 pub mod fresnel;
 mod list;
@@ -23,6 +24,7 @@ pub mod rough_dielectric;
 mod table;
 pub mod two_sided;
 
+pub use event::{Event, Lobe};
 pub use frame::Frame;
 pub(crate) use list::for_each_material;
 pub use model::{DiscreteLobe, Evaluated, Model, ScatterDraw, Scattered, Transport};

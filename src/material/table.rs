@@ -10,12 +10,13 @@ use super::plastic::Plastic;
 use super::rough_conductor::RoughConductor;
 use super::rough_dielectric::RoughDielectric;
 use super::two_sided::Sides;
-use super::{DiscreteLobe, Evaluated, Model, ScatterDraw, Scattered, Transport};
+use super::{DiscreteLobe, Evaluated, Event, Lobe, Model, ScatterDraw, Scattered, Transport};
 use crate::texture::{Shading, TextureTable};
 use glam::{Vec2, Vec3};
 
 macro_rules! define {
-    ($($Kind:ident, $table:ident, $name:literal, $scatter:ident, discrete: $discrete:literal, lobes: $lobes:literal;)*) => {
+    ($($Kind:ident, $table:ident, $name:literal, $scatter:ident, discrete: $discrete:literal, lobes: $lobes:literal,
+        events: [$($event:ident),*];)*) => {
         /// The models. A system per model scatters the chains that stand on it.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum MaterialKind {
@@ -35,7 +36,29 @@ macro_rules! define {
             /// Whether the model has a lobe that is a single direction, beside others or alone.
             #[must_use]
             pub const fn has_discrete_lobe(self) -> bool {
-                self.is_discrete() || matches!(self, Self::Plastic)
+                let (mut i, events) = (0, self.events());
+                while i < events.len() {
+                    if matches!(events[i].lobe, Lobe::Specular) {
+                        return true;
+                    }
+                    i += 1;
+                }
+                false
+            }
+
+            /// What the model's lobes do to paths.
+            #[must_use]
+            pub const fn events(self) -> &'static [Event] {
+                match self { $(Self::$Kind => &[$(Event::$event),*]),* }
+            }
+
+            /// What scattering by the model is, discrete or with a density, through the surface or not.
+            #[inline]
+            #[must_use]
+            pub const fn event(self, discrete: bool, transmits: bool) -> Event {
+                // Lobes with a density stand first, and a model has one kind of them at most.
+                let lobe = if discrete { Lobe::Specular } else { self.events()[0].lobe };
+                Event::new(lobe, transmits)
             }
 
             /// Whether the model needs a number of its own to choose between its lobes.

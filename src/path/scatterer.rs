@@ -38,6 +38,8 @@ pub struct Connection {
     pub origin: Vec3,
     /// The segment's end, off the light.
     pub target: Vec3,
+    /// The light.
+    pub light: u32,
 }
 
 impl Scatterer {
@@ -138,6 +140,7 @@ impl Scatterer {
             value: scattering.value * light.radiance * (weight / light.density),
             origin: self.leaving(light.direction),
             target: light.target,
+            light: light.light,
         })
     }
 }

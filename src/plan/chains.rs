@@ -128,6 +128,15 @@ pub enum ChainPlanError {
         /// The mutation.
         mutation: &'static str,
     },
+    /// A baseline traces depth first, and knows of no layers.
+    #[error("{technique} does not split light into layers")]
+    #[diagnostic(help("use {staged}, which brings the same light"))]
+    Layers {
+        /// The technique.
+        technique: &'static str,
+        /// The one that does.
+        staged: &'static str,
+    },
     /// Too many mutations.
     #[error("{count} mutations are planned, and {MAX_MUTATIONS} can be")]
     #[diagnostic(help("give those that are not needed a weight of 0"))]

@@ -13,9 +13,8 @@
 //! So their number is a function of the steps taken, like everything else.
 
 use super::path_tracing;
-use super::{EffectPlan, TilePlan};
+use super::{EffectPlan, PlanOptions, TilePlan};
 use crate::path::Sought;
-use crate::path::mis::Heuristic;
 use crate::scene::Scene;
 use std::fmt;
 use std::str::FromStr;
@@ -119,13 +118,7 @@ pub struct DirectPlan {
 
 impl DirectPlan {
     /// Path tracing of the direct light of `scene`, which has these effects.
-    pub(super) fn new(
-        scene: &Scene,
-        effects: &[EffectPlan],
-        samples: u32,
-        heuristic: Heuristic,
-        tile_size: Option<u32>,
-    ) -> Self {
+    pub(super) fn new(scene: &Scene, effects: &[EffectPlan], samples: u32, options: &PlanOptions) -> Self {
         // Without mirrors or glass, no path of direct light has more.
         let materials = scene.materials.kinds();
         let longest = if materials.iter().any(|kind| kind.has_discrete_lobe()) {
@@ -133,14 +126,15 @@ impl DirectPlan {
         } else {
             scene.max_depth.min(2)
         };
-        let mut tile = TilePlan::new(
-            path_tracing::systems(scene, effects, longest),
-            path_tracing::tables(scene, effects, longest),
-            tile_size,
-        );
+        let mut systems = path_tracing::systems(scene, effects, longest);
+        let mut tables = path_tracing::tables(scene, effects, longest);
+        if let Some(layers) = &options.layers {
+            super::layers::split(layers, &mut systems, &mut tables);
+        }
+        let mut tile = TilePlan::new(systems, tables, options.tile_size);
         tile.longest = longest;
         tile.sought = Sought::Direct;
-        tile.heuristic = heuristic;
+        tile.heuristic = options.heuristic;
         Self { samples, tile }
     }
 

@@ -7,6 +7,7 @@ mod bidirectional;
 mod chains;
 mod direct;
 mod effect;
+mod layers;
 mod missing;
 mod mlt;
 mod mlt_reference;
@@ -35,10 +36,12 @@ pub use technique::{Base, Technique, UnknownTechnique};
 pub use tile::{Subpaths, TilePlan};
 
 use crate::film::{Film, GroupFilm};
+use crate::layer::{LayerFilms, Layers};
 use crate::path::bidirectional::{Strategies, Weights};
 use crate::path::mis::Heuristic;
 use crate::scene::Scene;
 use bidirectional::BothEnds;
+use std::sync::Arc;
 
 /// What is asked of a plan beyond the technique.
 #[derive(Clone, Debug)]
@@ -57,6 +60,8 @@ pub struct PlanOptions {
     pub heuristic: Heuristic,
     /// Who renders direct light beside chains in path space; the scene says, where this does not ([`Direct::in_scene`]).
     pub direct: Option<Direct>,
+    /// The layers that light is split into, beside the picture of all of it.
+    pub layers: Option<Arc<Layers>>,
 }
 
 impl Default for PlanOptions {
@@ -69,6 +74,7 @@ impl Default for PlanOptions {
             strategy: None,
             heuristic: Heuristic::default(),
             direct: None,
+            layers: None,
         }
     }
 }
@@ -99,6 +105,8 @@ pub struct Plan {
     pub direct: Option<DirectPlan>,
     /// How subpaths are joined, for techniques with both ends.
     pub strategies: Option<Strategies>,
+    /// The layers that light is split into.
+    pub layers: Option<Arc<Layers>>,
     /// Films that steps take turns among, where independent samples bring light to many pixels; otherwise 0.
     pub splat_films: u32,
     /// How rays are traced.
@@ -112,7 +120,7 @@ pub struct Plan {
 }
 
 /// Films that the steps of independent samples take turns among: as many as groups of chains, for the same reason.
-const SPLAT_FILMS: u32 = 16;
+pub(crate) const SPLAT_FILMS: u32 = 16;
 
 /// What `technique` asks of paths from both ends.
 fn both_ends<'a>(
@@ -160,16 +168,37 @@ impl Plan {
     /// # Errors
     /// Mutations that chains cannot run with.
     pub fn with(scene: &Scene, technique: Technique, options: &PlanOptions) -> Result<Self, ChainPlanError> {
+        if let (true, Some(staged)) = (options.layers.is_some(), technique.staged()) {
+            return Err(ChainPlanError::Layers {
+                technique: technique.name(),
+                staged: staged.name(),
+            });
+        }
+        let split = |systems: &mut Vec<SystemPlan>, tables: &mut Vec<TablePlan>| {
+            if let Some(layers) = &options.layers {
+                layers::split(layers, systems, tables);
+            }
+        };
+        let split_states = |states: &mut StateSystems| {
+            // What evaluates whole paths is listed apart.
+            let mut all = std::mem::take(&mut states.before);
+            let before = all.len();
+            all.append(&mut states.systems);
+            split(&mut all, &mut states.tables);
+            states.systems = all.split_off(before);
+            states.before = all;
+        };
         let effects = effect::effects(scene);
         let mut chains = None;
         let mut direct = None;
         let mut strategies = None;
         let mut tile = match technique {
-            Technique::Pt => TilePlan::new(
-                path_tracing::systems(scene, &effects, scene.max_depth),
-                path_tracing::tables(scene, &effects, scene.max_depth),
-                options.tile_size,
-            ),
+            Technique::Pt => {
+                let mut systems = path_tracing::systems(scene, &effects, scene.max_depth);
+                let mut tables = path_tracing::tables(scene, &effects, scene.max_depth);
+                split(&mut systems, &mut tables);
+                TilePlan::new(systems, tables, options.tile_size)
+            }
             Technique::PtReference => TilePlan::new(
                 reference::systems(&effects),
                 reference::tables(&effects),
@@ -178,7 +207,9 @@ impl Plan {
             Technique::Lt | Technique::Bdpt => {
                 let both = both_ends(scene, &effects, technique, options);
                 strategies = Some(both.strategies);
-                TilePlan::with_subpaths(both.subpaths, both.systems(), both.tables(), options.tile_size)
+                let (mut systems, mut tables) = (both.systems(), both.tables());
+                split(&mut systems, &mut tables);
+                TilePlan::with_subpaths(both.subpaths, systems, tables, options.tile_size)
             }
             Technique::Pssmlt | Technique::PssmltReference if options.base == Base::Bdpt => {
                 if technique == Technique::PssmltReference {
@@ -188,7 +219,8 @@ impl Plan {
                 let counts = options.chains.counts(scene.pixel_count());
                 let both = both_ends(scene, &effects, technique, options);
                 strategies = Some(both.strategies);
-                let states = pssmlt::over_bidirectional(&both);
+                let mut states = pssmlt::over_bidirectional(&both);
+                split_states(&mut states);
                 let tile = chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size);
                 chains = Some(ChainPlan { counts, mutations });
                 tile
@@ -197,7 +229,8 @@ impl Plan {
                 let mutations = choose_mutations(&options.mutations, StateSpace::PATH, &effects)?;
                 let counts = options.chains.counts(scene.pixel_count());
                 strategies = Some(Strategies::default());
-                let states = mlt::states(scene, &effects);
+                let mut states = mlt::states(scene, &effects);
+                split_states(&mut states);
                 let mut tile = if technique == Technique::Mlt {
                     chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size)
                 } else {
@@ -207,13 +240,7 @@ impl Plan {
                 tile.sought = by.sought_by_chains();
                 tile.shortest = tile.sought.shortest();
                 if let Direct::Apart(samples) = by {
-                    direct = Some(DirectPlan::new(
-                        scene,
-                        &effects,
-                        samples,
-                        options.heuristic,
-                        options.tile_size,
-                    ));
+                    direct = Some(DirectPlan::new(scene, &effects, samples, options));
                 }
                 chains = Some(ChainPlan { counts, mutations });
                 tile
@@ -221,7 +248,8 @@ impl Plan {
             Technique::Pssmlt | Technique::PssmltReference => {
                 let mutations = choose_mutations(&options.mutations, StateSpace::PRIMARY, &effects)?;
                 let counts = options.chains.counts(scene.pixel_count());
-                let states = pssmlt::over_path_tracing(scene, &effects);
+                let mut states = pssmlt::over_path_tracing(scene, &effects);
+                split_states(&mut states);
                 let tile = if technique == Technique::Pssmlt {
                     chain_tile(states, &mutations, counts, options.chains.densities, options.tile_size)
                 } else {
@@ -243,6 +271,10 @@ impl Plan {
         if films == 0 || direct.is_some() {
             film_bytes += Film::bytes(width, height);
         }
+        if let Some(layers) = &options.layers {
+            let films = 1 + u64::from(direct.is_some());
+            film_bytes += films * LayerFilms::bytes(layers.len(), (width, height));
+        }
         Ok(Self {
             technique,
             missing: missing::missing(scene, technique, options.base),
@@ -251,6 +283,7 @@ impl Plan {
             chains,
             direct,
             strategies,
+            layers: options.layers.clone(),
             splat_films,
             tracer: "binary tree, one ray after another",
             tracer_reason: format!(

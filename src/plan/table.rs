@@ -1,5 +1,6 @@
 //! Tables as a plan lists them.
 
+use crate::layer::{LayerTable, ProposedLayerTable};
 use crate::path::*;
 use crate::table::{Column, ColumnSpec, LANES, Table};
 use bevy_ecs::component::ComponentId;
@@ -44,6 +45,11 @@ impl TableId {
     pub const SPLATS: Self = Self::of::<SplatTable>("splats");
     /// Splats of proposals.
     pub const PROPOSED_SPLATS: Self = Self::of::<ProposedSplatTable>("proposed splats");
+
+    /// What layers have of splats of current states.
+    pub const LAYERS: Self = Self::of::<LayerTable>("layers");
+    /// What layers have of splats of proposals.
+    pub const PROPOSED_LAYERS: Self = Self::of::<ProposedLayerTable>("proposed layers");
 
     /// Vertices of current paths.
     pub const PATHS: Self = Self::of::<whole::PathTable>("paths");

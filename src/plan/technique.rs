@@ -134,6 +134,17 @@ impl Technique {
         self.space().is_some()
     }
 
+    /// Of a baseline, the technique in stages that it is held against.
+    #[must_use]
+    pub const fn staged(self) -> Option<Self> {
+        match self {
+            Self::PtReference => Some(Self::Pt),
+            Self::PssmltReference => Some(Self::Pssmlt),
+            Self::MltReference => Some(Self::Mlt),
+            Self::Pt | Self::Lt | Self::Bdpt | Self::Pssmlt | Self::Mlt => None,
+        }
+    }
+
     /// The name on the command line and in files.
     #[must_use]
     pub const fn name(self) -> &'static str {

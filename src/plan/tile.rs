@@ -5,6 +5,7 @@ use super::system::SystemPlan;
 use super::table::{Extent, TableId, TablePlan};
 use crate::path::Sought;
 use crate::path::mis::Heuristic;
+use crate::systems::list::{SPLAT_LIST_LAYERS, SPLAT_SAMPLE_LAYERS, SPLAT_STATE_LAYERS, SPLIT_LAYERS, TAKE_LAYERS};
 use crate::table::LANES;
 
 /// The subpaths of a chain.
@@ -131,6 +132,20 @@ impl TilePlan {
     #[must_use]
     pub fn for_one_chain(mut self) -> Self {
         self.resize(LANES as u32, "one chain".to_owned());
+        self
+    }
+
+    /// The same tile without the systems that split light into layers.
+    #[must_use]
+    pub fn without_layers(mut self) -> Self {
+        let of_layers = [
+            SPLIT_LAYERS,
+            SPLAT_SAMPLE_LAYERS,
+            SPLAT_LIST_LAYERS,
+            SPLAT_STATE_LAYERS,
+            TAKE_LAYERS,
+        ];
+        self.systems.retain(|system| !of_layers.contains(&system.spec));
         self
     }
 

@@ -1,6 +1,7 @@
 //! Renders with Markov chains of light paths.
 
 use super::chain_run::ChainRun;
+use super::layers::{LayerFinding, LayerSums, insert_layers};
 use super::rendering::{Rendering, error_blocks};
 use super::tile_world::{TileWorld, lock};
 use super::{Combination, DirectLight, Findings, RenderError};
@@ -12,6 +13,8 @@ use crate::scene::Scene;
 use crate::stats::error::PictureError;
 use crate::stats::group_means::GroupMeans;
 use crate::systems::SystemCost;
+use crate::systems::chains::GroupPlace;
+use crate::systems::layers::LayerFilmsRef;
 use crate::systems::tile::{Counters, FilmBlocks, GroupFilmRef, SceneRef, StrategiesRef};
 use bevy_ecs::world::World;
 use std::sync::atomic::AtomicBool;
@@ -35,6 +38,7 @@ pub struct ChainRender {
     pub run: ChainRun,
     /// Direct light, where the chains leave it out.
     pub(super) direct: Option<DirectLight>,
+    pub(super) layers: Option<LayerSums>,
 }
 
 impl ChainRender {
@@ -63,6 +67,7 @@ impl ChainRender {
         // Of what comes before the first step, if direct light does too.
         let bootstrap = if render.direct.is_some() { 0.5 } else { 1.0 };
         render.run.bootstrap(interrupt, &|share| progress(bootstrap * share))?;
+        render.weigh_layers();
         if let Some(direct) = &mut render.direct {
             direct.begin(interrupt, &|share| progress(bootstrap + (1.0 - bootstrap) * share))?;
         }
@@ -84,12 +89,15 @@ impl ChainRender {
             .map(film)
             .collect::<Result<Vec<_>, FilmError>>()?;
         let blocks = Arc::new(state_blocks(&scene));
+        // States are divided by their targets, so splats are of order one.
+        let layers = LayerSums::of_groups(&plan, &scene, chains.counts.groups)?;
         let run = ChainRun::new(plan.tile.clone(), chains, seed, threads, |world, group| {
             insert_light(world, &scene, &blocks, &plan);
+            insert_layers(world, layers.as_ref());
             world.insert_resource(GroupFilmRef(Arc::clone(&films[group])));
         })?;
         let direct = plan.direct.clone();
-        let direct = direct.map(|direct| DirectLight::new(&scene, direct, seed, threads));
+        let direct = direct.map(|direct| DirectLight::new(&scene, direct, plan.layers.as_ref(), seed, threads));
         Ok(Self {
             direct: direct.transpose()?,
             scene,
@@ -97,6 +105,7 @@ impl ChainRender {
             films,
             blocks,
             run,
+            layers,
         })
     }
 
@@ -113,6 +122,25 @@ impl ChainRender {
         if let Some(direct) = &mut self.direct {
             direct.follow(mutations, &|| done(0));
         }
+    }
+
+    /// Tells every tile how much its group counts: as much as b of its bootstrap, see [`Combination`].
+    pub(super) fn weigh_layers(&mut self) {
+        if self.layers.is_none() {
+            return;
+        }
+        let weights = self.group_weights();
+        self.run.for_each_tile(&mut |_, world| {
+            let group = world.world().resource::<GroupPlace>().group;
+            world.world_mut().resource_mut::<LayerFilmsRef>().weight = weights[group as usize];
+        });
+    }
+
+    /// b of the groups' bootstraps over the largest.
+    fn group_weights(&self) -> Vec<f32> {
+        let b = || self.run.starts().iter().map(|start| start.normalization.b);
+        let most = b().fold(f64::MIN_POSITIVE, f64::max);
+        b().map(|b| (b / most) as f32).collect()
     }
 
     /// Wall time of what came before the first step.
@@ -155,19 +183,12 @@ impl ChainRender {
     pub fn group_block_means(&self, grid: &BlockGrid) -> Option<GroupMeans> {
         let (per_state, combination) = (self.per_state(), self.combination());
         let row = |film: &Arc<Mutex<GroupFilm>>| block_means(&lock(film), grid, per_state);
-        let mut rows = self.films.iter().map(row).collect::<Result<Vec<_>, _>>().ok()?;
-        let mut values = vec![0.0; rows.len()];
-        for statistic in 0..rows.first()?.len() {
-            values
-                .iter_mut()
-                .zip(&rows)
-                .for_each(|(value, row)| *value = row[statistic]);
-            combination.apply(&mut values);
-            rows.iter_mut()
-                .zip(&values)
-                .for_each(|(row, value)| row[statistic] = *value);
-        }
-        GroupMeans::from_rows(&rows).ok()
+        let rows = self.films.iter().map(row).collect::<Result<Vec<_>, _>>().ok()?;
+        Some(
+            GroupMeans::from_rows(&rows)
+                .ok()?
+                .combined(|values| combination.apply(values)),
+        )
     }
 
     /// The standard error of the picture's mean in every block and channel. `None` while it is not known.
@@ -319,6 +340,26 @@ impl Rendering for ChainRender {
         let (of_direct, blocks) = direct.block_means(&grid)?;
         let mean = of_direct.iter().sum::<f64>() / of_direct.len() as f64;
         PictureError::of_parts(&means, &blocks)?.relative_to(mean + means.grand_mean())
+    }
+
+    fn layers(&self) -> Vec<LayerFinding> {
+        let Some(layers) = &self.layers else {
+            return Vec::new();
+        };
+        let (weights, normalizations) = (self.group_weights(), self.run.normalizations());
+        let b = normalizations.iter().sum::<f64>() / normalizations.len() as f64;
+        let of_groups: f64 = weights.iter().map(|&weight| f64::from(weight)).sum();
+        let scale = if of_groups > 0.0 {
+            b * self.per_state() / of_groups
+        } else {
+            0.0
+        };
+        let combination = self.combination();
+        let parts = layers.of_states(scale, self.per_state(), self.run.busy_time(), &|values| {
+            combination.apply(values)
+        });
+        let of_direct = self.direct.as_ref().map(DirectLight::layer_parts);
+        LayerFinding::all(&layers.layers, parts, of_direct)
     }
 
     fn acceptance(&self) -> Option<f64> {

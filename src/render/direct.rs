@@ -4,10 +4,12 @@
 //! chains brings a part of a sample for every pixel, and bursts, interrupts and time limits are as fine as those of chains alone.
 
 use super::RenderError;
+use super::layers::{LayerParts, LayerSums, insert_layers, unit};
 use super::samples::Samples;
 use super::tile_world::TileWorld;
 use crate::film::{BlockGrid, Film, Picture, Tally, block_means_of, block_variances};
-use crate::plan::{DirectPlan, TilePlan};
+use crate::layer::Layers;
+use crate::plan::{DirectPlan, SPLAT_FILMS, TilePlan};
 use crate::sampling::StreamKey;
 use crate::scene::Scene;
 use crate::stats::error::IndependentBlocks;
@@ -31,15 +33,25 @@ pub struct DirectLight {
     /// Samples taken, of all pixels together.
     pub(super) taken: u64,
     start_time: Duration,
+    pub(super) layers: Option<LayerSums>,
 }
 
 impl DirectLight {
-    pub(super) fn new(scene: &Arc<Scene>, plan: DirectPlan, seed: u64, threads: usize) -> Result<Self, RenderError> {
+    pub(super) fn new(
+        scene: &Arc<Scene>,
+        plan: DirectPlan,
+        layers: Option<&Arc<Layers>>,
+        seed: u64,
+        threads: usize,
+    ) -> Result<Self, RenderError> {
         let film = Arc::new(Film::new(scene.width, scene.height, scene.lights.max_radiance())?);
+        let layers = layers.map(|layers| LayerSums::new(layers, scene, SPLAT_FILMS, unit(scene)));
+        let layers = layers.transpose()?;
         let seed = StreamKey::new(seed, 0, SEED_STEP).bits();
         let samples = Samples::new(&plan.tile, scene.pixel_count(), seed, threads, |world| {
             world.insert_resource(SceneRef(Arc::clone(scene)));
             world.insert_resource(FilmRef(Arc::clone(&film)));
+            insert_layers(world, layers.as_ref());
         })?;
         Ok(Self {
             plan,
@@ -48,6 +60,7 @@ impl DirectLight {
             pixels: scene.pixel_count(),
             taken: 0,
             start_time: Duration::ZERO,
+            layers,
         })
     }
 
@@ -156,6 +169,15 @@ impl DirectLight {
                 degrees_of_freedom: (samples - 1) as f64,
             };
             (means, blocks)
+        })
+    }
+
+    /// What layers have of it.
+    pub(super) fn layer_parts(&self) -> LayerParts {
+        let pixels = u64::from(self.pixels);
+        let layers = self.layers.as_ref();
+        layers.map_or_else(LayerParts::default, |layers| {
+            layers.of_samples(&self.samples, self.taken / pixels, (self.taken % pixels) as u32)
         })
     }
 

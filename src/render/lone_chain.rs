@@ -157,7 +157,7 @@ fn of_chains(
 
 /// The tile for one chain, without the systems that add to films: nobody looks at what one chain adds.
 fn for_one_chain(tile: &TilePlan) -> TilePlan {
-    let mut tile = tile.clone().for_one_chain();
+    let mut tile = tile.clone().without_layers().for_one_chain();
     tile.systems
         .retain(|system| ![SPLAT_SAMPLES, SPLAT_LISTS, SPLAT_STATES].contains(&system.spec));
     tile

@@ -11,6 +11,7 @@ mod direct;
 mod driver;
 mod findings;
 mod group;
+mod layers;
 mod lone_chain;
 mod pilot;
 mod rendering;
@@ -20,6 +21,7 @@ mod saved_states;
 mod saved_tile;
 mod splats;
 mod tile_world;
+mod turns;
 
 pub use blank::blank;
 pub use built::{Built, BuiltColumn, BuiltTable, short};
@@ -30,6 +32,7 @@ pub use direct::DirectLight;
 pub use driver::{Budget, Goal, Outcome, Progress, Stop, drive};
 pub use findings::{ClassAgreement, ClassFinding, Findings, LengthFindings, MutationFindings};
 pub use group::Start;
+pub use layers::{LayerFinding, LayerRecord};
 pub use lone_chain::{LoneChain, LoneStart};
 pub use rendering::{Rendering, error_blocks};
 pub use saved::SavedRenderError;
@@ -42,6 +45,7 @@ use crate::scene::Scene;
 use crate::stats::error::PictureError;
 use crate::systems::SystemCost;
 use crate::systems::tile::{Counters, FilmRef, SceneRef};
+use layers::{LayerSums, insert_layers};
 use samples::Samples;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -124,6 +128,7 @@ pub struct Render {
     pub film: Arc<Film>,
     seed: u64,
     samples: Samples,
+    layers: Option<LayerSums>,
 }
 
 impl Render {
@@ -138,11 +143,14 @@ impl Render {
             });
         }
         let film = Arc::new(Film::new(scene.width, scene.height, scene.lights.max_radiance())?);
+        let layers = LayerSums::planned(&plan, &scene, layers::unit(&scene))?;
         let samples = Samples::new(&plan.tile, scene.pixel_count(), seed, threads, |world| {
             world.insert_resource(SceneRef(Arc::clone(&scene)));
             world.insert_resource(FilmRef(Arc::clone(&film)));
+            insert_layers(world, layers.as_ref());
         })?;
         Ok(Self {
+            layers,
             scene,
             plan,
             film,
@@ -213,6 +221,16 @@ impl Rendering for Render {
         }
         let mean = means.iter().sum::<f64>() / means.len() as f64;
         PictureError::of_independent(&variances).relative_to(mean)
+    }
+
+    fn layers(&self) -> Vec<LayerFinding> {
+        let parts = self
+            .layers
+            .as_ref()
+            .map(|layers| (layers, layers.of_samples(&self.samples, self.samples.steps, 0)));
+        parts.map_or_else(Vec::new, |(layers, parts)| {
+            LayerFinding::all(&layers.layers, parts, None)
+        })
     }
 
     fn save(&self) -> Vec<u8> {

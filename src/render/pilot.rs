@@ -32,7 +32,7 @@ pub(super) fn unit(
 ) -> Result<f64, FilmError> {
     // What the samples splat is of no interest.
     let film = Mutex::new(GroupFilm::new(1, 1)?);
-    let mut world = TileWorld::new(tile, seed, |world| {
+    let mut world = TileWorld::new(&tile.clone().without_layers(), seed, |world| {
         insert(world);
         world.insert_resource(SplatFilms {
             films: Arc::new([film]),

@@ -1,6 +1,6 @@
 //! What all renders have in common, whether their samples are independent or states of chains.
 
-use super::{ChainRender, DirectLight, TileWorld};
+use super::{ChainRender, DirectLight, LayerFinding, TileWorld};
 use crate::film::{BlockGrid, Picture, Tally};
 use crate::plan::{Plan, SystemSpec, TilePlan};
 use crate::scene::Scene;
@@ -42,6 +42,8 @@ pub trait Rendering {
     fn acceptance(&self) -> Option<f64> {
         None
     }
+    /// The layers that light is split into, if it is; their light sums to that of the [`picture`](Self::picture).
+    fn layers(&self) -> Vec<LayerFinding>;
     /// The render so far, to be taken up by [`resume`](super::resume).
     fn save(&self) -> Vec<u8>;
     /// What films could not take as it was.

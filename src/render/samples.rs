@@ -91,6 +91,11 @@ impl Samples {
         self.burst(steps, &order, done);
     }
 
+    /// Chains, each of which samples one pixel a step.
+    pub(super) fn pixels(&self) -> f64 {
+        f64::from(self.chains)
+    }
+
     pub(super) fn tile_count(&self) -> usize {
         self.chains.div_ceil(self.tile.size) as usize
     }

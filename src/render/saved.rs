@@ -4,6 +4,7 @@
 //! It holds the steps taken, the films, and for chains their normalizations and every tile.
 
 use super::bytes::{CutOff, Hash, Reader, Writer};
+use super::layers::LayerSums;
 use super::tile_world::lock;
 use super::{ChainRender, Render, Rendering, SplatRender, Start, saved_states, saved_tile};
 use crate::chain::Normalization;
@@ -94,6 +95,13 @@ fn identity(scene: &Scene, plan: &Plan, seed: u64) -> Vec<(String, String)> {
             identity.push((name, planned.mutation.settings().to_string()));
         }
     }
+    for (name, expression) in plan
+        .layers
+        .iter()
+        .flat_map(|layers| layers.names().iter().zip(layers.expressions()))
+    {
+        identity.push((format!("the layer {name}"), expression.clone()));
+    }
     identity.push(("the scene (as a hash)".to_owned(), format!("{:016x}", hash.0)));
     identity
 }
@@ -165,6 +173,7 @@ impl Render {
         let mut film = Vec::new();
         self.film.save(&mut film);
         out.list(&film);
+        save_layers(&mut out, self.layers.as_ref());
         finish(out)
     }
 
@@ -177,6 +186,7 @@ impl Render {
         check_identity(&mut saved, &identity(&self.scene, &self.plan, self.seed))?;
         let steps = saved.number()?;
         let film = saved.list()?;
+        restore_layers(&mut saved, self.layers.as_ref())?;
         if !saved.bytes.is_empty() || steps > LAST_STEP {
             return Err(SavedRenderError::Damaged);
         }
@@ -198,6 +208,7 @@ impl SplatRender {
             lock(film).save(&mut bytes);
             out.list(&bytes);
         }
+        save_layers(&mut out, self.layers.as_ref());
         finish(out)
     }
 
@@ -218,6 +229,7 @@ impl SplatRender {
             }
             films.push(film);
         }
+        restore_layers(&mut saved, self.layers.as_ref())?;
         if !saved.bytes.is_empty() || steps > LAST_STEP {
             return Err(SavedRenderError::Damaged);
         }
@@ -254,7 +266,9 @@ impl ChainRender {
             let mut film = Vec::new();
             direct.film.save(&mut film);
             out.list(&film);
+            save_layers(&mut out, direct.layers.as_ref());
         }
+        save_layers(&mut out, self.layers.as_ref());
         finish(out)
     }
 
@@ -293,6 +307,10 @@ impl ChainRender {
         });
         outcome?;
         let of_direct = self.direct.as_ref().map(|_| saved.list()).transpose()?;
+        if let Some(direct) = &self.direct {
+            restore_layers(&mut saved, direct.layers.as_ref())?;
+        }
+        restore_layers(&mut saved, self.layers.as_ref())?;
         if !saved.bytes.is_empty() || steps > LAST_STEP || !saved_states::are_sound(&self.run, &self.scene) {
             return Err(SavedRenderError::Damaged);
         }
@@ -301,12 +319,24 @@ impl ChainRender {
         }
         self.run.steps = steps;
         self.run.set_units();
+        self.weigh_layers();
         let mutations = self.mutations();
         if let Some(direct) = &mut self.direct {
             direct.taken = direct.due(mutations);
         }
         Ok(())
     }
+}
+
+fn save_layers(out: &mut Writer, layers: Option<&LayerSums>) {
+    for film in layers.map_or_else(Vec::new, |layers| layers.films.save()) {
+        out.list(&film);
+    }
+}
+
+fn restore_layers(saved: &mut Reader<'_>, layers: Option<&LayerSums>) -> Result<(), SavedRenderError> {
+    let Some(layers) = layers else { return Ok(()) };
+    layers.films.restore(|| Ok(saved.list()?), || SavedRenderError::Damaged)
 }
 
 fn restore_start(saved: &mut Reader<'_>, start: &mut Start) -> Result<(), CutOff> {

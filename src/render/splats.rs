@@ -1,14 +1,15 @@
 //! Renders whose samples are independent and bring light to many pixels: light tracing, bidirectional path tracing.
 //!
 //! Light that one path brings to several pixels is correlated, so that single pixels tell too little about the error of a
-//! block. Steps therefore take turns among some films, and their spread is the error, as with groups of chains. A film that
-//! has n of the N steps counts by n/N.
+//! block. Steps therefore [take turns](super::turns) among some films, and their spread is the error.
 
 use super::RenderError;
+use super::layers::{LayerFinding, LayerSums, insert_layers};
 use super::pilot;
 use super::rendering::{Rendering, error_blocks};
 use super::samples::Samples;
 use super::tile_world::{TileWorld, lock};
+use super::turns::Turns;
 use crate::film::{FilmError, GroupFilm, Picture, Tally, block_means, develop_combined};
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -32,6 +33,7 @@ pub struct SplatRender {
     pub(super) samples: Samples,
     /// The radiance that one unit of a film stands for: a power of two.
     unit: f64,
+    pub(super) layers: Option<LayerSums>,
 }
 
 impl SplatRender {
@@ -61,8 +63,10 @@ impl SplatRender {
             scene.lights.max_radiance(),
             insert,
         )?;
+        let layers = LayerSums::planned(&plan, &scene, unit)?;
         let samples = Samples::new(&plan.tile, scene.pixel_count(), seed, threads, |world| {
             insert(world);
+            insert_layers(world, layers.as_ref());
             world.insert_resource(SplatFilms {
                 films: Arc::clone(&films),
                 scale: (1.0 / unit) as f32,
@@ -75,6 +79,7 @@ impl SplatRender {
             seed,
             samples,
             unit,
+            layers,
         })
     }
 
@@ -84,47 +89,28 @@ impl SplatRender {
         self.samples.burst(steps, order, done);
     }
 
-    /// The radiance that one unit of each film's sums stands for, and its share of all steps; of those that have any.
-    fn scales(&self) -> Vec<(f64, f64)> {
-        let (films, steps) = (self.films.len() as u64, self.samples.steps);
-        let of_film = |number: u64| (steps + films - 1 - number) / films;
-        let counts = (0..films).map(of_film).filter(|&count| count > 0);
-        counts
-            .map(|count| (self.unit / count as f64, count as f64 / steps as f64))
-            .collect()
+    fn turns(&self) -> Turns {
+        Turns::new(self.films.len(), self.samples.steps, 0.0)
+    }
+
+    /// The radiance that one unit of each film's sums stands for, of those that have any.
+    fn scales(&self) -> Vec<f64> {
+        self.turns().counts().iter().map(|count| self.unit / count).collect()
     }
 
     /// What every film stands for in the mean radiance of every block and channel (number block · 3 + channel).
     #[must_use]
     pub fn film_block_means(&self) -> Option<GroupMeans> {
         let grid = error_blocks(&self.scene);
-        let scales = self.scales();
-        let films = self.films.iter().zip(&scales);
-        let mut rows = films
-            .map(|(film, (scale, _))| block_means(&lock(film), &grid, *scale))
-            .collect::<Result<Vec<_>, _>>()
-            .ok()?;
-        let mut values = vec![0.0; rows.len()];
-        for statistic in 0..rows.first()?.len() {
-            for (value, row) in values.iter_mut().zip(&rows) {
-                *value = row[statistic];
-            }
-            combine(&mut values, &scales);
-            for (row, value) in rows.iter_mut().zip(&values) {
-                row[statistic] = *value;
-            }
-        }
-        GroupMeans::from_rows(&rows).ok()
-    }
-}
-
-/// Makes of the films' means v those values whose plain mean is the mean over all steps M, and whose spread is its error:
-/// M + (v − M) · (films · share).
-fn combine(values: &mut [f64], scales: &[(f64, f64)]) {
-    let films = values.len() as f64;
-    let mean: f64 = values.iter().zip(scales).map(|(value, (_, share))| value * share).sum();
-    for (value, (_, share)) in values.iter_mut().zip(scales) {
-        *value = mean + (*value - mean) * (films * share);
+        let films = self.films.iter().zip(self.scales());
+        let rows = films.map(|(film, scale)| block_means(&lock(film), &grid, scale));
+        let rows = rows.collect::<Result<Vec<_>, _>>().ok()?;
+        let turns = self.turns();
+        Some(
+            GroupMeans::from_rows(&rows)
+                .ok()?
+                .combined(|values| turns.combine(values)),
+        )
     }
 }
 
@@ -174,10 +160,10 @@ impl Rendering for SplatRender {
         let scales = self.scales();
         let films: Vec<_> = self.films.iter().take(scales.len()).map(|film| lock(film)).collect();
         let films: Vec<_> = films.iter().map(|film| &**film).collect();
-        let units: Vec<f64> = scales.iter().map(|(unit, _)| *unit).collect();
+        let turns = self.turns();
         // All films are of the scene's size, and there is a finite scale for each.
-        develop_combined(&films, &units, self.samples.steps as f32, |values| {
-            combine(values, &scales)
+        develop_combined(&films, &scales, self.samples.steps as f32, |values| {
+            turns.combine(values)
         })
         .unwrap_or_default()
     }
@@ -185,6 +171,17 @@ impl Rendering for SplatRender {
     fn error(&self) -> Option<PictureError> {
         let means = self.film_block_means()?;
         PictureError::of(&means)?.relative_to(means.grand_mean())
+    }
+
+    fn layers(&self) -> Vec<LayerFinding> {
+        let steps = self.samples.steps;
+        let parts = self
+            .layers
+            .as_ref()
+            .map(|layers| (layers, layers.of_samples(&self.samples, steps, 0)));
+        parts.map_or_else(Vec::new, |(layers, parts)| {
+            LayerFinding::all(&layers.layers, parts, None)
+        })
     }
 
     fn save(&self) -> Vec<u8> {
@@ -199,20 +196,5 @@ impl Rendering for SplatRender {
 
     fn for_each_world(&self, look: &mut dyn FnMut(usize, &mut TileWorld)) {
         self.samples.for_each_world(look);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn films_count_by_their_steps() {
-        // Three films of 5 steps: 2, 2, 1.
-        let scales = [(1.0, 0.4), (1.0, 0.4), (1.0, 0.2)];
-        let mut values = [1.0, 2.0, 6.0];
-        combine(&mut values, &scales);
-        let mean = values.iter().sum::<f64>() / 3.0;
-        assert!((mean - (0.4 + 0.8 + 1.2)).abs() < 1e-12, "{mean}");
     }
 }

@@ -12,7 +12,7 @@ mod coverage;
 use super::components::Spread;
 use super::fisher::f_quantile;
 use super::group_means::GroupMeans;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The variances of a part of a picture whose blocks are independent of each other, as those of a path-traced picture are.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +27,7 @@ pub struct IndependentBlocks {
 
 /// The root-mean-square error of a picture's statistics, in their units (or as a fraction, see
 /// [`relative_to`](Self::relative_to)).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PictureError {
     /// The estimate: the root of the expected mean-square error.
     pub rms: f64,

@@ -71,6 +71,23 @@ impl GroupMeans {
         })
     }
 
+    /// The table whose groups have, of every statistic, what `combine` makes of its values; those have to stay finite.
+    #[must_use]
+    pub fn combined(mut self, combine: impl Fn(&mut [f64])) -> Self {
+        let mut values = vec![0.0; self.groups];
+        for statistic in 0..self.statistics {
+            let entries = || (statistic..).step_by(self.statistics);
+            for (value, at) in values.iter_mut().zip(entries()) {
+                *value = self.values[at];
+            }
+            combine(&mut values);
+            for (value, at) in values.iter().zip(entries()) {
+                self.values[at] = *value;
+            }
+        }
+        self
+    }
+
     /// A table from one row of statistics per group.
     ///
     /// # Errors

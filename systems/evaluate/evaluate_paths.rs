@@ -1,6 +1,7 @@
 //! Whole paths: what they bring, and the densities of all strategies.
 
 use super::super::chains::Keys;
+use super::super::layers::LayersRef;
 use super::super::paths::{VertexColumns, VertexColumnsMut, Vertices, VerticesMut};
 use super::super::propose::paths::view::{PathEnds, PathRows};
 use super::super::tile::{FilmBlocks, Queues, SceneRef, TilePlace};
@@ -8,6 +9,7 @@ use super::normalized;
 use crate::chain::{ProposedClass, ProposedTarget};
 use crate::color::Rgb;
 use crate::geometry::SegmentTransmittance;
+use crate::layer::{Layers, SplatLayer, Stop};
 use crate::path::whole::*;
 use crate::path::*;
 use crate::sampling::StreamKey;
@@ -38,6 +40,8 @@ pub struct Found<'w, 's> {
     counts: Write<'w, 's, ProposedSplatCount, ChainTable>,
     splat_pixels: Write<'w, 's, SplatPixel, ProposedSplatTable>,
     splat_colors: Write<'w, 's, SplatColor, ProposedSplatTable>,
+    layers: Option<Res<'w, LayersRef>>,
+    splat_layers: Write<'w, 's, SplatLayer, ProposedSplatTable>,
     lights: Write<'w, 's, ProposedLight, ChainTable>,
     pixels: Write<'w, 's, FilmPixel, ChainTable>,
     film: Write<'w, 's, ProposedPathFilm, ChainTable>,
@@ -56,6 +60,8 @@ pub struct FoundColumns<'a> {
     counts: &'a mut [ProposedSplatCount],
     splat_pixels: &'a mut [SplatPixel],
     splat_colors: &'a mut [SplatColor],
+    layers: Option<&'a Layers>,
+    splat_layers: &'a mut [SplatLayer],
     lights: &'a mut [ProposedLight],
     pixels: &'a mut [FilmPixel],
     film: &'a mut [ProposedPathFilm],
@@ -76,6 +82,8 @@ impl Found<'_, '_> {
             counts: self.counts.rows(),
             splat_pixels: self.splat_pixels.rows(),
             splat_colors: self.splat_colors.rows(),
+            layers: self.layers.as_deref().map(|layers| &*layers.0),
+            splat_layers: self.splat_layers.rows(),
             lights: self.lights.rows(),
             pixels: self.pixels.rows(),
             film: self.film.rows(),
@@ -111,7 +119,14 @@ impl FoundColumns<'_> {
     }
 
     /// Writes a chain's proposal, where there was [nothing](Self::nothing); whether it can be taken.
-    pub fn put(&mut self, place: &TilePlace, blocks: &FilmBlocks, chain: usize, path: &FoundPath<'_>) -> bool {
+    pub fn put(
+        &mut self,
+        scene: &Scene,
+        place: &TilePlace,
+        blocks: &FilmBlocks,
+        chain: usize,
+        path: &FoundPath<'_>,
+    ) -> bool {
         let FoundPath {
             value,
             vertices,
@@ -133,6 +148,15 @@ impl FoundColumns<'_> {
         self.counts.put(chain, 1);
         self.splat_pixels.put(chain, seen.pixel);
         self.splat_colors.put(chain, normalized(value, target));
+        if let Some(layers) = self.layers {
+            let vertex = |i: usize| Stop {
+                site: vertices[i].site(),
+                material: vertices[i].surface.material,
+            };
+            let end = scene.lights.endpoint(light).into();
+            let layer = layers.of_path(scene, vertices.len() - 1, end, vertex);
+            self.splat_layers.put(chain, layer as u32);
+        }
         self.lights.put(chain, light);
         self.pixels.put(chain, seen.pixel);
         self.film.put(chain, seen.film);
@@ -248,7 +272,7 @@ pub fn evaluate_paths(
             light,
             seen,
         };
-        found.put(&place, &blocks, chain, &path);
+        found.put(scene, &place, &blocks, chain, &path);
     }
     debug_assert_eq!(segment, queues.segments);
 }

@@ -4,6 +4,7 @@ mod evaluate_lists;
 mod evaluate_paths;
 mod evaluate_targets;
 mod gather_contribution;
+mod split_layers;
 mod tally_independent;
 mod weigh_choices;
 
@@ -13,5 +14,6 @@ pub use evaluate_targets::evaluate_targets;
 pub(super) use evaluate_targets::normalized;
 pub(super) use gather_contribution::Brightest;
 pub use gather_contribution::gather_contribution;
+pub use split_layers::split_layers;
 pub use tally_independent::tally_independent;
 pub use weigh_choices::weigh_choices;

@@ -4,6 +4,7 @@ use super::super::tile::{Queues, SceneRef, TilePlace};
 use super::draws::{DrawColumns, Draws};
 use super::scatter::{ScattererColumns, Scatterers};
 use crate::geometry::{RayOrigin, SegmentTarget};
+use crate::layer::{ConnectionEnd, VertexConnectionEnd};
 use crate::path::{ChainTable, ConnectList, ProposalTable, RayChain, RayTable, VertexConnection};
 use crate::scene::Scene;
 use crate::table::{Read, Rows, Write};
@@ -18,6 +19,7 @@ pub fn connect_lights(
     draws: Draws,
     scatterers: Scatterers,
     mut connections: Write<VertexConnection, ProposalTable>,
+    mut ends: Write<VertexConnectionEnd, ProposalTable>,
     mut ray_chains: Write<RayChain, RayTable>,
     mut origins: Write<RayOrigin, RayTable>,
     mut targets: Write<SegmentTarget, RayTable>,
@@ -29,12 +31,13 @@ pub fn connect_lights(
         draws: draws.columns(&place),
         scatterers: scatterers.columns(),
         connections: connections.rows(),
+        ends: ends.rows(),
         ray_chains: ray_chains.rows(),
         origins: origins.rows(),
         targets: targets.rows(),
     };
     // Compiled twice: what a scene has none of is not asked about at every vertex.
-    queues.segments = if run.scatterers.is_plain() {
+    queues.segments = if run.scatterers.is_plain() && run.ends.is_empty() {
         run.connect(true, queues.connect)
     } else {
         run.connect(false, queues.connect)
@@ -50,6 +53,7 @@ struct Run<'a> {
     draws: DrawColumns<'a>,
     scatterers: ScattererColumns<'a>,
     connections: &'a mut [VertexConnection],
+    ends: &'a mut [VertexConnectionEnd],
     ray_chains: &'a mut [RayChain],
     origins: &'a mut [RayOrigin],
     targets: &'a mut [SegmentTarget],
@@ -68,6 +72,14 @@ impl Run<'_> {
                 continue;
             };
             self.connections.put(vertex, connection.value);
+            if !plain && !self.ends.is_empty() {
+                let (side, onward) = (scatterer.normal, connection.target - scatterer.position);
+                let end = ConnectionEnd {
+                    transmits: (side.dot(scatterer.direction) > 0.0) == (side.dot(onward) > 0.0),
+                    end: self.scene.lights.endpoint(connection.light).into(),
+                };
+                self.ends.put(vertex, end.packed());
+            }
             self.ray_chains.put(segments, chain as u32);
             self.origins.put(segments, connection.origin);
             self.targets.put(segments, connection.target);

@@ -4,6 +4,7 @@ use super::super::tile::{Counters, Queues, SceneRef, TilePlace, connectable};
 use super::ends::{Arrival, EndColumns, Ends};
 use crate::color::Rgb;
 use crate::geometry::{Hit, HitInstance, HitPrimitive, HitUv, NO_HIT, NOT_EMITTING};
+use crate::layer::VertexConnectionEnd;
 use crate::path::mis::Heuristic;
 use crate::path::whole::{STEERED, StopDepth, TO_JOINT, stop_depth};
 use crate::path::*;
@@ -34,6 +35,7 @@ pub struct Vertices<'w, 's> {
     densities: Write<'w, 's, VertexDensity, ProposalTable>,
     emissions: Write<'w, 's, VertexEmission, ProposalTable>,
     connections: Write<'w, 's, VertexConnection, ProposalTable>,
+    connection_ends: Write<'w, 's, VertexConnectionEnd, ProposalTable>,
     shading_normals: Write<'w, 's, VertexShadingNormal, ProposalTable>,
     materials: Write<'w, 's, VertexMaterial, ProposalTable>,
     instances: Write<'w, 's, VertexInstance, ProposalTable>,
@@ -85,6 +87,7 @@ pub fn extend_paths(
         densities: vertices.densities.rows(),
         emissions: vertices.emissions.rows(),
         connections: vertices.connections.rows(),
+        connection_ends: vertices.connection_ends.rows(),
         shading_normals: vertices.shading_normals.rows(),
         materials: vertices.materials.rows(),
         names: (
@@ -125,6 +128,7 @@ struct Run<'a> {
     densities: &'a mut [VertexDensity],
     emissions: &'a mut [VertexEmission],
     connections: &'a mut [VertexConnection],
+    connection_ends: &'a mut [VertexConnectionEnd],
     shading_normals: &'a mut [VertexShadingNormal],
     materials: &'a mut [VertexMaterial],
     names: (&'a mut [VertexInstance], &'a mut [VertexPrimitive], &'a mut [VertexUv]),
@@ -137,10 +141,10 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Whether paths come from the camera alone and have neither textures nor tangents, no light is at infinity, and
+    /// Whether paths come from the camera alone and have neither textures nor tangents nor layers, no light is at infinity, and
     /// surfaces are alike from both sides.
     fn is_plain(&self) -> bool {
-        let detailed = !self.textures.is_empty() || !self.tangents.is_empty();
+        let detailed = !self.textures.is_empty() || !self.tangents.is_empty() || !self.connection_ends.is_empty();
         let (lights, materials) = (&self.scene.lights, &self.scene.materials);
         let special = materials.have_sides() || lights.has_infinite();
         self.place.is_camera_only() && self.ends.is_none() && !special && !detailed
@@ -164,6 +168,7 @@ impl Run<'_> {
             densities,
             emissions,
             connections,
+            connection_ends,
             shading_normals,
             materials,
             names,
@@ -192,6 +197,9 @@ impl Run<'_> {
             densities.put(vertex, 0.0);
             if !connections.is_empty() {
                 connections.put(vertex, Rgb::BLACK);
+            }
+            if !plain && !connection_ends.is_empty() {
+                connection_ends.put(vertex, 0);
             }
             if !plain && escaped {
                 let sampled_before =

@@ -131,7 +131,7 @@ pub fn propose_paths_depth_first(
             light,
             seen,
         };
-        if !found.put(&place, &blocks, chain, &made) {
+        if !found.put(&scene.0, &place, &blocks, chain, &made) {
             continue;
         }
         let (rows, ends) = (found.rows(), found.ends(chain, k));

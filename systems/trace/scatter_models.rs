@@ -11,7 +11,8 @@ use crate::table::{Read, Rows};
 use bevy_ecs::system::{Res, ResMut};
 
 macro_rules! define {
-    ($($Kind:ident, $table:ident, $name:literal, $scatter:ident, discrete: $discrete:literal, lobes: $lobes:literal;)*) => {
+    ($($Kind:ident, $table:ident, $name:literal, $scatter:ident, discrete: $discrete:literal, lobes: $lobes:literal,
+        events: [$($event:ident),*];)*) => {
         $(
             #[doc = concat!("Samples the direction in which every path that stands on a ", $name, " material goes on.")]
             pub fn $scatter(

@@ -64,6 +64,8 @@ pub struct Offer {
     pub origin: Vec3,
     /// The end of the segment.
     pub target: Vec3,
+    /// The light, where it was sampled for this offer; otherwise [`NOT_EMITTING`], and the path ends where its light subpath starts.
+    pub light: u32,
 }
 
 /// An [`Offer`] that is seen by the lens.
@@ -165,6 +167,7 @@ impl Join<'_> {
             value: x.throughput * scattering.value * sample.radiance * (weight / sample.density),
             origin: x.surface.leaving(sample.direction),
             target: sample.target,
+            light: sample.light,
         })
     }
 
@@ -190,6 +193,7 @@ impl Join<'_> {
             value: x.throughput * at_x.value * (at_y.value * y.throughput) * scale as f32,
             origin: x.surface.leaving(direction),
             target: y.surface.leaving(-direction),
+            light: NOT_EMITTING,
         })
     }
 
@@ -238,6 +242,7 @@ impl Join<'_> {
                 value,
                 origin: y.surface.leaving(towards),
                 target: view.origin,
+                light: NOT_EMITTING,
             },
             pixel,
         })

@@ -2,6 +2,7 @@
 //! for some per chain.
 
 mod book_connections;
+mod join_layers;
 mod join_loop;
 mod join_paths;
 mod offer_connections;

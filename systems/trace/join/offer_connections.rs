@@ -2,11 +2,13 @@
 
 use super::super::super::tile::{Queues, SceneRef, StrategiesRef, TilePlace};
 use super::super::draws::{DrawColumns, Draws};
+use super::join_layers::{Split, SplitColumns};
 use super::join_loop::JoinCursor;
 use super::subpaths::{SubpathColumns, SubpathTables, lens};
 use crate::chain::{ProposedClass, Signature, StateClass};
 use crate::color::Rgb;
 use crate::geometry::{RayOrigin, SegmentTarget};
+use crate::layer::SegmentLayer;
 use crate::path::bidirectional::{EndVertex, Join, Offer, Strategies};
 use crate::path::*;
 use crate::scene::Scene;
@@ -23,6 +25,7 @@ pub struct Segments<'w, 's> {
     lights: Write<'w, 's, SegmentLight, RayTable>,
     pixels: Write<'w, 's, SegmentPixel, RayTable>,
     classes: Write<'w, 's, SegmentClass, RayTable>,
+    layers: Write<'w, 's, SegmentLayer, RayTable>,
 }
 
 struct SegmentColumns<'a> {
@@ -32,6 +35,7 @@ struct SegmentColumns<'a> {
     lights: &'a mut [SegmentLight],
     pixels: &'a mut [SegmentPixel],
     classes: &'a mut [SegmentClass],
+    layers: &'a mut [SegmentLayer],
     len: usize,
 }
 
@@ -66,6 +70,7 @@ pub fn offer_connections(
     mut segments: Segments,
     mut splats: Splats,
     mut pair: Local<Pair>,
+    mut split: Split,
 ) {
     let (scene, strategies, place) = (&*scene.0, strategies.0, &*place);
     let (draws, subpaths, film) = (draws.columns(place), tables.columns(), film.rows());
@@ -78,9 +83,11 @@ pub fn offer_connections(
         lights: segments.lights.rows(),
         pixels: segments.pixels.rows(),
         classes: segments.classes.rows(),
+        layers: segments.layers.rows(),
         len: 0,
     };
     let room = place.capacity as usize;
+    let mut split = split.columns();
     while cursor.chain < place.chains as usize {
         let chain = cursor.chain;
         pair.read(scene, place, &draws, &subpaths, chain);
@@ -91,6 +98,9 @@ pub fn offer_connections(
             light: &pair.light,
         };
         if *cursor == JoinCursor::at(chain) {
+            if let Some(split) = &mut split {
+                split.begin(&join, place, chain);
+            }
             let (met, most, class) = met(&join);
             let has_pixel = place.lights_from > 0;
             counts.put(chain, u32::from(has_pixel));
@@ -103,10 +113,13 @@ pub fn offer_connections(
                 classes.put(chain, class.0);
             }
         }
-        let (done, next) = offer_all(&join, place, &draws, *cursor, room, &mut segments);
+        let (done, next) = offer_all(&join, place, &draws, *cursor, room, &mut segments, split.as_mut());
         if !done {
             *cursor = next;
             break;
+        }
+        if let Some(split) = &mut split {
+            split.end(&join);
         }
         *cursor = JoinCursor::at(chain + 1);
     }
@@ -172,6 +185,7 @@ fn offer_all(
     mut cursor: JoinCursor,
     room: usize,
     segments: &mut SegmentColumns<'_>,
+    mut split: Option<&mut SplitColumns<'_>>,
 ) -> (bool, JoinCursor) {
     let (scene, chain) = (join.scene, cursor.chain);
     let light_path = place.lights_from as usize + chain;
@@ -214,6 +228,11 @@ fn offer_all(
                 // Offered again in the next round.
                 cursor.s -= 1;
                 return (false, cursor);
+            }
+            if let Some(split) = &mut split {
+                segments
+                    .layers
+                    .put(segments.len, split.offered(join, s, t, &offer) as u32);
             }
             segments.push(chain, &offer, pixel, || class_of(join, s, t));
         }
