@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// Layers that light is split into.
 #[derive(Args, Clone, Debug, Default)]
 pub struct LayerArgs {
-    /// Split light into layers by the paths that bring it, which sum to the picture: emitted, environment, specular, direct, diffuse,
+    /// Split light into layers by the paths that bring it, which sum to the picture, and are in its file and as PNGs beside it: emitted, environment, specular, direct, diffuse,
     /// glossy, sds (found by no connection), caustic, seen_specular, other, as far as the scene has such paths
     #[arg(long)]
     layers: bool,

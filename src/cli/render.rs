@@ -6,7 +6,7 @@ use super::output::{count, note, print};
 use super::report::{Report, missed};
 use super::target::check_writable;
 use super::{interrupt, memory};
-use crate::film::{PictureMetadata, ToneMap, write_exr, write_file, write_png};
+use crate::film::{ImageView, PictureMetadata, ToneMap, write_exr, write_file, write_png};
 use crate::plan::Registry;
 use crate::render::{Findings, LayerFinding, Progress, RenderError, Rendering, drive, resume, start};
 use crate::scene::description::EXPOSURE;
@@ -122,6 +122,13 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
     let stops = args.exposure.unwrap_or(loaded.exposure);
     let tone = ToneMap::automatic(picture.view()).brighter(stops);
     write_png(&png, picture.view(), tone)?;
+    for layer in &layers {
+        let view = ImageView {
+            rgb: &layer.rgb,
+            ..picture.view()
+        };
+        write_png(&png.with_extension(format!("{}.png", layer.record.name)), view, tone)?;
+    }
     if let Some(path) = &args.save {
         write_file(path, &render.save())?;
     }

@@ -63,6 +63,9 @@ pub struct StudyArgs {
     /// The folder of the study. One that is there already is gone on with
     #[arg(short, long, value_name = "FOLDER")]
     pub(super) output: PathBuf,
+    /// Tell what every effect costs too: one run more of every way, which splits its light into layers by the paths that bring it
+    #[arg(long)]
+    layers: bool,
     /// Film size in pixels instead of the scenes', such as 160x120
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<(u32, u32)>,
@@ -140,7 +143,8 @@ pub fn run(args: &StudyArgs, registry: &Registry) -> Result<ExitCode> {
         let Some(reference) = runner.reference_of(subject, &mut study)? else {
             return Ok(interrupted(&bar));
         };
-        if !runner.render(subject, &reference, &mut study)? {
+        let done = runner.render(subject, &reference, &mut study)?;
+        if !done || (args.layers && !runner.split(subject, &mut study)?) {
             return Ok(interrupted(&bar));
         }
     }

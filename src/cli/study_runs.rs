@@ -8,7 +8,9 @@ use super::study::{StudyArgs, Subject};
 use crate::film::{PictureMetadata, write_exr};
 use crate::plan::Registry;
 use crate::render::{Budget, RenderError, Stop, drive, start};
-use crate::study::{Reference, RunRecord, SceneStudy, Study, StudyError, WaySettings, WayStudy, checkpoints, run_once};
+use crate::study::{
+    Reference, RunRecord, SceneStudy, Study, StudyError, WaySettings, WayStudy, checkpoints, run_once, split_run,
+};
 use indicatif::ProgressBar;
 use miette::Result;
 use std::path::{Path, PathBuf};
@@ -145,6 +147,30 @@ impl Runner<'_> {
         }
         Ok(true)
     }
+
+    /// Splits the light of every way by one run more, where that is not done yet; whether nobody interrupted it.
+    pub(super) fn split(&self, subject: &Subject, study: &mut Study) -> Result<bool> {
+        let Some(scene) = study.scenes.iter().position(|scene| scene.name == subject.name) else {
+            return Ok(true);
+        };
+        for (number, settings) in study.settings.ways.clone().iter().enumerate() {
+            if study.scenes[scene].ways[number].layers.is_some() {
+                continue;
+            }
+            self.bar
+                .set_message(format!("{}: layers of {}", subject.name, settings.name));
+            let mut options = settings.options.clone();
+            options.push("--layers".to_owned());
+            let loaded = self.args.load(&subject.file, &options, self.registry)?;
+            let asked = (study.settings.seed, study.settings.threads, study.settings.seconds);
+            match split_run(&loaded.scene, &loaded.plan, asked, self.interrupt)? {
+                Some(run) => study.scenes[scene].ways[number].layers = Some(run),
+                None => return Ok(false),
+            }
+            study.write(self.path)?;
+        }
+        Ok(true)
+    }
 }
 
 /// The file of the first run's picture by way number `way`.
@@ -173,6 +199,7 @@ impl SceneStudy {
             technique: loaded.plan.technique.name().to_owned(),
             settings: settings(loaded),
             runs: Vec::new(),
+            layers: None,
         };
         Self {
             name: subject.name.clone(),

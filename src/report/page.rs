@@ -3,7 +3,7 @@
 use super::curves::{Against, error_curves};
 use super::markup::{data_address, escaped};
 use super::spectra::error_spectra;
-use super::tables::{bias, stages, summaries};
+use super::tables::{bias, layers, stages, summaries};
 use super::{PlotError, Shown};
 use crate::study::{Measure, SceneStudy, Study};
 use std::fmt::Write;
@@ -89,6 +89,7 @@ fn of_scene(scene: &SceneStudy, shown: &Shown) -> Result<String, PlotError> {
     out += &summaries(scene, Measure::RelMseTrimmed);
     out += &bias(scene);
     out += &stages(scene);
+    out += &layers(scene);
     Ok(out + "\n</section>\n")
 }
 

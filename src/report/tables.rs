@@ -1,7 +1,7 @@
 //! Tables of a page.
 
 use super::markup::escaped;
-use crate::study::{Interval, Measure, SceneStudy, Summary, TimeTo, WayStudy};
+use crate::study::{Interval, LayerRun, Measure, SceneStudy, Summary, TimeTo, WayStudy};
 use std::fmt::Write;
 
 /// What all runs say, of one measure.
@@ -101,6 +101,58 @@ pub(super) fn stages(scene: &SceneStudy) -> String {
     format!(
         "<table><caption>What stages cost: seconds before the first step, and shares of the time of steps</caption>\
          <tr><th></th><th>start</th>{head}</tr>{rows}</table>"
+    )
+}
+
+/// What every effect costs: of each layer its light, and in every way that was asked for it its error and its share of the time.
+pub(super) fn layers(scene: &SceneStudy) -> String {
+    let ways: Vec<(&WayStudy, &LayerRun)> = scene
+        .ways
+        .iter()
+        .filter_map(|way| Some((way, way.layers.as_ref()?)))
+        .collect();
+    let Some((_, first)) = ways.first() else {
+        return String::new();
+    };
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    let head: String = ways
+        .iter()
+        .map(|(way, _)| format!("<th colspan=\"4\">{}</th>", escaped(&way.name)))
+        .collect();
+    let columns = "<th>light</th><th>its error (95 %)</th><th>of the error</th><th>time</th>".repeat(ways.len());
+    let mut rows = String::new();
+    for layer in &first.layers {
+        let cell = |(_, run): &(&WayStudy, &LayerRun)| {
+            let Some(own) = run.layers.iter().find(|own| own.name == layer.name) else {
+                return "<td colspan=\"4\"></td>".to_owned();
+            };
+            let error = own.error.map_or_else(
+                || "not known".to_owned(),
+                |error| {
+                    let [low, high] = error.interval.map(|bound| 100.0 * bound);
+                    format!("{:.1} % ({low:.1} to {high:.1})", 100.0 * error.rms)
+                },
+            );
+            format!(
+                "<td>{}</td><td>{error}</td><td>{}</td><td>{}</td>",
+                percent(own.light_share),
+                percent(own.error_share),
+                percent(own.time_share)
+            )
+        };
+        let cells: String = ways.iter().map(cell).collect();
+        let _ = write!(
+            rows,
+            "<tr><th>{} <code>{}</code></th>{cells}</tr>",
+            escaped(&layer.name),
+            escaped(&layer.expression)
+        );
+    }
+    format!(
+        "<table class=\"effects\"><caption>What every effect costs in one run of {:.1} s: its share of the light, its error over block means \
+         relative to its own light, its share of the picture's squared error, and of the time</caption>\
+         <tr><th></th>{head}</tr><tr><th></th>{columns}</tr>{rows}</table>",
+        first.seconds
     )
 }
 

@@ -16,9 +16,10 @@ mod summary;
 
 pub use estimates::Interval;
 pub use reference::{Reference, ReferenceError, ReferenceRecord};
-pub use run::{checkpoints, run_once};
+pub use run::{checkpoints, run_once, split_run};
 pub use spectrum::{BANDS, Spectrum, band_name};
 pub use study_file::{
-    Errors, RunRecord, SceneStudy, Settings, Snapshot, StageSeconds, Stated, Study, StudyError, WaySettings, WayStudy,
+    Errors, LayerRun, RunRecord, SceneStudy, Settings, Snapshot, StageSeconds, Stated, Study, StudyError, WaySettings,
+    WayStudy,
 };
 pub use summary::{Measure, Point, Summary, TimeTo};

@@ -1,7 +1,7 @@
 //! One run of a study.
 
 use super::Reference;
-use super::study_file::{RunRecord, Snapshot, StageSeconds, Stated};
+use super::study_file::{LayerRun, RunRecord, Snapshot, StageSeconds, Stated};
 use crate::color::Rgb;
 use crate::film::Picture;
 use crate::plan::{Plan, Stage};
@@ -96,6 +96,30 @@ pub fn run_once(
         stages: stages(&*render),
     };
     Ok(Some((record, last)))
+}
+
+/// Renders once with a plan that splits light, for so many seconds, with a seed on so many threads. `None` if somebody interrupted it.
+///
+/// # Errors
+/// A render that cannot start.
+pub fn split_run(
+    scene: &Arc<Scene>,
+    plan: &Plan,
+    (seed, threads, seconds): (u64, usize, f64),
+    interrupt: &AtomicBool,
+) -> Result<Option<LayerRun>, RenderError> {
+    let began = Instant::now();
+    let started = start(Arc::clone(scene), plan.clone(), seed, threads, interrupt, &|_| {});
+    let mut render = match started {
+        Err(RenderError::Interrupted) => return Ok(None),
+        started => started?,
+    };
+    let left = Duration::from_secs_f64((seconds - began.elapsed().as_secs_f64()).max(0.0));
+    let outcome = drive(&mut *render, Budget::Time(left), interrupt, &|_| {});
+    Ok((outcome.stop != Stop::Interrupted).then(|| LayerRun {
+        seconds: began.elapsed().as_secs_f64(),
+        layers: render.layers().into_iter().map(|layer| layer.record).collect(),
+    }))
 }
 
 /// What every stage has cost so far, direct light that is rendered apart beside them.

@@ -3,6 +3,7 @@
 use super::ReferenceRecord;
 use super::spectrum::Spectrum;
 use crate::film::{WriteError, write_file};
+use crate::render::LayerRecord;
 use serde::{Deserialize, Serialize};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -78,6 +79,19 @@ pub struct WayStudy {
     pub settings: String,
     /// Runs, by seed.
     pub runs: Vec<RunRecord>,
+    /// What the scene's effects cost, where it was asked for: of one run more, which splits its light.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub layers: Option<LayerRun>,
+}
+
+/// A run that splits its light into layers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LayerRun {
+    /// Seconds that it took, start-up included.
+    pub seconds: f64,
+    /// Layer by layer.
+    pub layers: Vec<LayerRecord>,
 }
 
 /// An independent run.

@@ -35,7 +35,7 @@ fn a_study_has_runs_of_every_way_and_goes_on_where_it_ended() {
     let folder = TempDir::new().expect("a folder");
     let cornell = cornell();
     let way = "chains=--technique mlt --groups 4 --chains 64 --bootstrap 256";
-    let with = |runs| {
+    let with = |runs, last| {
         let more = [
             "--techniques",
             "pt,bdpt",
@@ -44,10 +44,11 @@ fn a_study_has_runs_of_every_way_and_goes_on_where_it_ended() {
             "--make-reference=2",
             "--runs",
             runs,
+            last,
         ];
         succeed(&arguments(&cornell, &more), folder.path())
     };
-    let text = with("2");
+    let text = with("2", "--seed=1");
     for expected in [
         "cornell-box, 16 x 16 pixels",
         "\npt ",
@@ -103,11 +104,19 @@ fn a_study_has_runs_of_every_way_and_goes_on_where_it_ended() {
     assert!(!page.contains("http://") && !page.contains("https://"));
     let own = first.scenes[0].reference.own_rel_mse.expect("known");
     assert!(own > 0.0 && own < ways[0].runs[0].snapshots[0].errors.rel_mse);
-    with("3");
+    assert!(!page.contains("What every effect costs"));
+    with("3", "--layers");
+    let page = std::fs::read_to_string(folder.path().join("study/report.html")).expect("a page");
+    assert!(page.contains("What every effect costs") && page.contains("C[DG]L"));
     let second = read(folder.path());
     for (before, after) in ways.iter().zip(&second.scenes[0].ways) {
         assert_eq!(after.runs.len(), 3);
         assert_eq!(before.runs, after.runs[..2]);
+        let layers = &after.layers.as_ref().expect("one run more").layers;
+        let names: Vec<&str> = layers.iter().map(|layer| layer.name.as_str()).collect();
+        assert_eq!(names, ["emitted", "direct", "diffuse", "other"]);
+        let shares: f64 = layers.iter().map(|layer| layer.light_share).sum();
+        assert!((shares - 1.0).abs() < 1e-5, "{layers:?}");
     }
 }
 
