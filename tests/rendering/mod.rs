@@ -1,6 +1,7 @@
 //! The renderer as a whole: same bytes, same light, exactly the planned tables.
 
 mod bytes;
+mod metrics;
 mod oracle;
 mod staged;
 mod target;
