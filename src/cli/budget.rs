@@ -18,6 +18,27 @@ pub struct BudgetArgs {
 }
 
 impl BudgetArgs {
+    /// The samples per pixel that were asked for.
+    #[must_use]
+    pub const fn samples(self) -> Option<f64> {
+        self.spp
+    }
+
+    /// The time that was asked for.
+    #[must_use]
+    pub const fn time(self) -> Option<Duration> {
+        self.time
+    }
+
+    /// What is left of it when `spent` is spent.
+    #[must_use]
+    pub fn after(self, spent: Duration) -> Self {
+        Self {
+            time: self.time.map(|time| time.saturating_sub(spent)),
+            ..self
+        }
+    }
+
     /// Refuses a number of samples that a render which goes on has passed already.
     ///
     /// # Errors
@@ -86,6 +107,12 @@ pub struct TargetArgs {
 }
 
 impl TargetArgs {
+    /// The error, if one was asked for.
+    #[must_use]
+    pub const fn error(self) -> Option<f64> {
+        self.target_error
+    }
+
     /// The goal: this error, within the budget.
     ///
     /// # Errors
@@ -146,7 +173,7 @@ fn parse_spp(text: &str) -> Result<f64, String> {
     }
 }
 
-fn parse_error(text: &str) -> Result<f64, String> {
+pub(super) fn parse_error(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(error) if error > 0.0 && error < 1.0 => Ok(error),
         _ => Err("expected a relative error above 0 and below 1, such as 0.01 for 1 %".to_owned()),

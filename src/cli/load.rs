@@ -15,6 +15,7 @@ use clap::Args;
 use miette::{Result, miette};
 use std::fmt::Write;
 use std::path::PathBuf;
+use std::str::FromStr;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -23,9 +24,10 @@ use std::time::{Duration, Instant};
 pub struct SceneArgs {
     /// The scene file: RON, or JSON by its extension
     pub scene: PathBuf,
-    /// How to estimate the picture: pt, pt-reference, lt, bdpt, pssmlt, pssmlt-reference, mlt [default: the scene's, or pt]
+    /// How to estimate the picture: pt, pt-reference, lt, bdpt, pssmlt, pssmlt-reference, mlt; for `render` also auto, which tries
+    /// pt, bdpt, pssmlt and mlt first and takes what promises most [default: the scene's, or pt]
     #[arg(long, value_name = "NAME")]
-    pub technique: Option<Technique>,
+    pub technique: Option<TechniqueChoice>,
     /// Film size in pixels instead of the scene's, such as 640x480
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
@@ -43,6 +45,26 @@ pub struct SceneArgs {
     pub chains: ChainArgs,
     #[command(flatten)]
     pub layers: LayerArgs,
+}
+
+/// What `--technique` asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TechniqueChoice {
+    /// This one.
+    One(Technique),
+    /// The one that promises most, by pilots.
+    Auto,
+}
+
+impl FromStr for TechniqueChoice {
+    type Err = UnknownTechnique;
+
+    fn from_str(name: &str) -> Result<Self, UnknownTechnique> {
+        if name == "auto" {
+            return Ok(Self::Auto);
+        }
+        name.parse().map(Self::One)
+    }
 }
 
 /// How techniques with both ends join subpaths.
@@ -117,7 +139,8 @@ impl SceneArgs {
         let flattened = flatten(&source)?;
         let named = source.description.settings.technique.as_deref();
         let technique = match (self.technique, named) {
-            (Some(technique), _) => technique,
+            (Some(TechniqueChoice::One(technique)), _) => technique,
+            (Some(TechniqueChoice::Auto), _) => return Err(no_choice()),
             (None, Some(name)) => name.parse().map_err(|error: UnknownTechnique| {
                 let place = [Step::Key("settings"), Step::Key("technique")];
                 source.error(
@@ -133,22 +156,11 @@ impl SceneArgs {
             max_depth: self.max_depth,
         };
         let scene = Arc::new(Scene::compile(&source.description, &flattened, overrides)?);
-        unused::refuse(self, technique, &scene, &mutations)?;
+        let plan = self.plan(&scene, technique, mutations)?;
         let warnings: Vec<String> = flattened.warnings.iter().map(|warning| warning.plain()).collect();
         for warning in &warnings {
             note(&format!("warning: {warning}"));
         }
-        let options = PlanOptions {
-            tile_size: self.tile,
-            chains: self.chains.settings()?,
-            mutations,
-            base: self.strategies.base.unwrap_or_default(),
-            strategy: self.strategies.strategy,
-            heuristic: self.strategies.heuristic.unwrap_or_default(),
-            direct: self.strategies.direct,
-            layers: self.layers.of(&scene)?,
-        };
-        let plan = Plan::with(&scene, technique, &options)?;
         Ok(Loaded {
             scene,
             plan,
@@ -158,6 +170,45 @@ impl SceneArgs {
             load_time: start.elapsed(),
         })
     }
+
+    /// [`load`](Self::load) of a scene that is loaded already: `loaded` is of the same file, size and depth.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn load_again(&self, technique: Technique, loaded: &Loaded, registry: &Registry) -> Result<Loaded> {
+        let mutations = self.mutations.apply(registry)?;
+        Ok(Loaded {
+            scene: Arc::clone(&loaded.scene),
+            plan: self.plan(&loaded.scene, technique, mutations)?,
+            filter: loaded.filter.clone(),
+            warnings: loaded.warnings.clone(),
+            ..*loaded
+        })
+    }
+
+    /// The plan of a scene.
+    fn plan(&self, scene: &Scene, technique: Technique, mutations: Registry) -> Result<Plan> {
+        unused::refuse(self, technique, scene, &mutations)?;
+        let options = PlanOptions {
+            tile_size: self.tile,
+            chains: self.chains.settings()?,
+            mutations,
+            base: self.strategies.base.unwrap_or_default(),
+            strategy: self.strategies.strategy,
+            heuristic: self.strategies.heuristic.unwrap_or_default(),
+            direct: self.strategies.direct,
+            layers: self.layers.of(scene)?,
+        };
+        Ok(Plan::with(scene, technique, &options)?)
+    }
+}
+
+/// Only `render` tries techniques first.
+fn no_choice() -> miette::Report {
+    miette!(
+        help = "name a technique, such as --technique mlt; `chainlight cost SCENE` tells which promises most",
+        "--technique auto is for `render` alone: what else there is needs to know the technique"
+    )
 }
 
 /// Settings that shape the picture, as its metadata names them.

@@ -1,15 +1,19 @@
 //! The program's commands, one file each.
 
+mod auto;
 mod budget;
 mod chains;
 pub mod check;
 pub mod compare;
+pub mod cost;
+mod cost_table;
 mod findings;
 mod interrupt;
 mod layers;
 mod load;
 mod memory;
 mod output;
+mod pilots;
 pub mod plan;
 pub mod profile;
 pub mod render;
@@ -22,6 +26,8 @@ mod study_runs;
 mod study_table;
 mod target;
 mod unused;
+mod verdict;
+mod ways;
 
 use crate::plan::Registry;
 use clap::{Parser, Subcommand};
@@ -51,6 +57,8 @@ enum Command {
     Check(check::CheckArgs),
     /// Render scenes in several ways, again and again, and tell what accuracy costs in time.
     Study(study::StudyArgs),
+    /// Try techniques on a scene for a few seconds each, and tell what accuracy will cost with them, and which to take.
+    Cost(cost::CostArgs),
     /// Print the scene format as a JSON Schema, for editors, or as a reference page.
     Schema(schema::SchemaArgs),
 }
@@ -77,6 +85,7 @@ pub fn run_with(cli: &Cli, registry: &Registry) -> miette::Result<ExitCode> {
         Command::Replay(args) => replay::run(args, registry),
         Command::Compare(args) => compare::run(args).map(|()| ExitCode::SUCCESS),
         Command::Study(args) => study::run(args, registry),
+        Command::Cost(args) => cost::run(args, registry),
         Command::Schema(args) => schema::run(args).map(|()| ExitCode::SUCCESS),
     }
 }

@@ -56,12 +56,56 @@ pub fn count(value: f64) -> String {
     }
 }
 
+/// A time for people, of two or three digits: `0.43 s`, `3 m 20 s`, `2 h 05 m`.
+pub fn duration(seconds: f64) -> String {
+    let whole = |unit: f64| (seconds / unit).round() as u64;
+    match seconds {
+        s if s < 0.095 => format!("{s:.3} s"),
+        s if s < 9.95 => format!("{s:.2} s"),
+        s if s < 59.5 => format!("{s:.0} s"),
+        s if s < 3599.5 => format!("{} m {:02} s", whole(1.0) / 60, whole(1.0) % 60),
+        s if s < 1.5 * 86400.0 => format!("{} h {:02} m", whole(60.0) / 60, whole(60.0) % 60),
+        s if s < 1000.0 * 86400.0 => format!("{:.0} days", s / 86400.0),
+        s if s.is_finite() => format!("{:.0} years", s / (365.25 * 86400.0)),
+        _ => "no end".to_owned(),
+    }
+}
+
+/// A ratio for people, of two or three digits.
+pub fn significant(value: f64) -> String {
+    match value {
+        v if v < 0.095 => format!("{v:.3}"),
+        v if v < 0.95 => format!("{v:.2}"),
+        v if v < 9.95 => format!("{v:.1}"),
+        v if v < 1e6 => format!("{v:.0}"),
+        v => format!("{v:.0e}"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn sizes_read_well() {
+        for (seconds, expected) in [
+            (0.0123, "0.012 s"),
+            (0.43, "0.43 s"),
+            (9.96, "10 s"),
+            (59.6, "1 m 00 s"),
+            (200.4, "3 m 20 s"),
+            (3599.7, "1 h 00 m"),
+            (7500.0, "2 h 05 m"),
+            (864_000.0, "10 days"),
+            (1e12, "31688 years"),
+            (f64::INFINITY, "no end"),
+        ] {
+            assert_eq!(duration(seconds), expected);
+        }
+        assert_eq!(
+            [0.012, 0.43, 4.06, 42.3, 2.5e7].map(significant),
+            ["0.012", "0.43", "4.1", "42", "2e7"]
+        );
         assert_eq!(bytes(1023), "1023 B");
         assert_eq!(bytes(1536), "1.5 KiB");
         assert_eq!(bytes(u64::MAX), "16777216.0 TiB");

@@ -1,8 +1,9 @@
 //! `render`: from a scene to a picture.
 
+use super::auto::{self, Asked, Chosen};
 use super::budget::{BudgetArgs, Default, TargetArgs, ThreadArgs};
-use super::load::{Loaded, SceneArgs, settings};
-use super::output::{count, note, print};
+use super::load::{Loaded, SceneArgs, TechniqueChoice, settings};
+use super::output::{count, duration, note, print};
 use super::report::{Report, missed};
 use super::target::check_writable;
 use super::{interrupt, memory};
@@ -16,6 +17,8 @@ use miette::{IntoDiagnostic, Result, miette};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
 
 /// Samples per pixel where neither `--spp` nor `--time` is given.
 pub const DEFAULT_SPP: f64 = 96.0;
@@ -74,6 +77,14 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
         }
     }
     let saved = args.resume.as_deref().map(read_saved).transpose()?;
+    let interrupt = interrupt::listen()?;
+    let (args, chosen) = match args.scene.technique {
+        Some(TechniqueChoice::Auto) => match args.choose(registry, &interrupt)? {
+            Some((args, chosen)) => (args, Some(chosen)),
+            None => return Ok(nothing_written(&ProgressBar::hidden())),
+        },
+        _ => (args.clone(), None),
+    };
     let loaded = args.scene.load(registry)?;
     let threads = args.threads.count();
     memory::check(&loaded, threads)?;
@@ -83,7 +94,6 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
     for warning in missed(&loaded.plan) {
         note(&format!("warning: {warning}"));
     }
-    let interrupt = interrupt::listen()?;
     let bar = progress_bar();
     let (scene, plan) = (Arc::clone(&loaded.scene), loaded.plan.clone());
     let begun = match &saved {
@@ -132,9 +142,10 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
     if let Some(path) = &args.save {
         write_file(path, &render.save())?;
     }
-    let report = Report::new(args, &loaded, &*render, outcome, &picture, &output, findings)
+    let report = Report::new(&args, &loaded, &*render, outcome, &picture, &output, findings)
         .shown(tone)
-        .split(&layers);
+        .split(&layers)
+        .chosen(chosen);
     if args.json {
         print(&serde_json::to_string_pretty(&report).into_diagnostic()?)?;
     } else {
@@ -146,6 +157,35 @@ pub fn run(args: &RenderArgs, registry: &Registry) -> Result<ExitCode> {
     } else {
         ExitCode::SUCCESS
     })
+}
+
+impl RenderArgs {
+    /// What `--technique auto` comes to: these arguments with the technique that promises most, and with the time that is left. `None` if
+    /// somebody interrupted it.
+    fn choose(&self, registry: &Registry, interrupt: &AtomicBool) -> Result<Option<(Self, Chosen)>> {
+        if self.resume.is_some() {
+            return Err(miette!(
+                help =
+                    "give the technique that it was saved with: the picture's metadata name it, and so did the render",
+                "--technique auto cannot go with --resume: a saved render goes on with its own technique"
+            ));
+        }
+        let asked = Asked {
+            time: self.budget.time(),
+            target_error: self.target.error(),
+            samples: self.budget.samples().unwrap_or(DEFAULT_SPP),
+            seed: self.seed,
+            threads: self.threads.count(),
+        };
+        let began = Instant::now();
+        let Some(chosen) = auto::choose(&self.scene, asked, registry, interrupt)? else {
+            return Ok(None);
+        };
+        let mut args = self.clone();
+        args.scene.technique = Some(chosen.technique);
+        args.budget = args.budget.after(began.elapsed());
+        Ok(Some((args, chosen)))
+    }
 }
 
 /// Somebody stopped it before there was anything to write.
@@ -256,6 +296,9 @@ fn show(bar: &ProgressBar, loaded: &Loaded, progress: Progress) {
             100.0 * error.rms,
             100.0 * error.upper
         );
+    }
+    if let Some((left, target)) = progress.to_target {
+        message += &format!(", about {} to {} %", duration(left.as_secs_f64()), 100.0 * target);
     }
     if let Some(acceptance) = progress.acceptance {
         message += &format!(", {:.0} % taken", 100.0 * acceptance);

@@ -1,5 +1,6 @@
 //! What a render says of itself when it is done: as JSON, as a summary, as warnings.
 
+use super::auto::Chosen;
 use super::load::{Loaded, settings};
 use super::output::{count, note};
 use super::render::RenderArgs;
@@ -15,6 +16,9 @@ use std::path::Path;
 pub(super) struct Report {
     scene: String,
     technique: &'static str,
+    /// Where `--technique auto` took it: why, and what that took.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    auto: Option<Chosen>,
     settings: String,
     seed: u64,
     steps: u64,
@@ -96,6 +100,7 @@ impl Report {
         Self {
             scene: args.scene.scene.display().to_string(),
             technique: loaded.plan.technique.name(),
+            auto: None,
             settings: settings(loaded),
             seed: args.seed,
             steps: outcome.steps,
@@ -140,6 +145,11 @@ impl Report {
     pub(super) fn split(self, layers: &[LayerFinding]) -> Self {
         let layers = layers.iter().map(|layer| layer.record.clone()).collect();
         Self { layers, ..self }
+    }
+
+    /// With how the technique was chosen, if it was.
+    pub(super) fn chosen(self, auto: Option<Chosen>) -> Self {
+        Self { auto, ..self }
     }
 
     /// The summary for people.

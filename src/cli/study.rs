@@ -1,16 +1,17 @@
 //! `study`: what accuracy costs in time.
 
 use super::budget::{ThreadArgs, parse_seconds};
-use super::load::{Loaded, SceneArgs, parse_size, settings};
+use super::load::{Loaded, parse_size, settings};
 use super::output::{note, print};
 use super::study_runs::{Runner, picture_file};
 use super::study_table::table;
+use super::ways::{WayArgs, way_options};
 use super::{interrupt, memory};
 use crate::film::write_file;
 use crate::plan::{Registry, Technique};
 use crate::report::{Against, Shown, error_curves, error_spectra, page};
 use crate::study::{Measure, Reference, ReferenceError, SceneStudy, Settings, Study, Summary, WaySettings};
-use clap::{Args, Parser};
+use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use miette::{IntoDiagnostic, Result, WrapErr, miette};
 use std::path::{Path, PathBuf};
@@ -29,17 +30,8 @@ pub struct StudyArgs {
     /// Scene files: RON, or JSON by its extension
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Techniques to render with, each with its defaults; the first is the one that others are compared with
-    #[arg(
-        long,
-        value_name = "NAME,...",
-        value_delimiter = ',',
-        default_value = "pt,bdpt,pssmlt,mlt"
-    )]
-    techniques: Vec<Technique>,
-    /// One more way to render: a name, and options of `render`, such as "no lens=--technique mlt --mutation lens:weight=0"
-    #[arg(long, value_name = "NAME=OPTIONS")]
-    way: Vec<String>,
+    #[command(flatten)]
+    ways: WayArgs,
     /// Seconds of each run, start-up included; the picture is looked at after this, half of it, a quarter, and so on to a 64th
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, default_value = "8")]
     pub(super) time: Duration,
@@ -77,14 +69,6 @@ pub struct StudyArgs {
     /// Print all summaries as JSON
     #[arg(long)]
     json: bool,
-}
-
-/// The options of a way, as `render` reads them.
-#[derive(Parser, Debug)]
-#[command(no_binary_name = true)]
-struct WayOptions {
-    #[command(flatten)]
-    scene: SceneArgs,
 }
 
 /// A scene of the study, ready to render in every way.
@@ -225,24 +209,7 @@ fn interrupted(bar: &ProgressBar) -> ExitCode {
 
 impl StudyArgs {
     fn settings(&self) -> Result<Settings> {
-        let of_technique = |technique: &Technique| WaySettings {
-            name: technique.name().to_owned(),
-            options: vec!["--technique".to_owned(), technique.name().to_owned()],
-        };
-        let mut ways: Vec<WaySettings> = self.techniques.iter().map(of_technique).collect();
-        for text in &self.way {
-            let parts = text.split_once('=').filter(|(name, _)| !name.trim().is_empty());
-            let (name, options) = parts
-                .ok_or_else(|| miette!("--way {text}: expected NAME=OPTIONS, such as \"bdpt=--technique bdpt\""))?;
-            ways.push(WaySettings {
-                name: name.trim().to_owned(),
-                options: options.split_whitespace().map(str::to_owned).collect(),
-            });
-        }
-        let twice = |(i, way): &(usize, &WaySettings)| ways[..*i].iter().any(|other| other.name == way.name);
-        if let Some((_, way)) = ways.iter().enumerate().find(twice) {
-            return Err(miette!("there are two ways named {}: give one another name", way.name));
-        }
+        let ways = self.ways.settings()?;
         Ok(Settings {
             seconds: self.time.as_secs_f64(),
             threads: self.threads.count(),
@@ -284,13 +251,7 @@ impl StudyArgs {
     }
 
     pub(super) fn load(&self, file: &Path, options: &[String], registry: &Registry) -> Result<Loaded> {
-        let mut words = vec![file.as_os_str().to_owned()];
-        words.extend(options.iter().map(Into::into));
-        let mut parsed = WayOptions::try_parse_from(words)
-            .map_err(|error| miette!("options of a way: {}", error.to_string().trim_start_matches("error: ")))?
-            .scene;
-        parsed.size = self.size.or(parsed.size);
-        let loaded = parsed.load(registry)?;
+        let loaded = way_options(file, options, self.size)?.load(registry)?;
         memory::check(&loaded, self.threads.count())?;
         Ok(loaded)
     }

@@ -1,6 +1,7 @@
 //! How long a render runs: bursts until a budget is spent or someone interrupts.
 
 use super::Rendering;
+use super::remaining::{LastLook, steps_to_target};
 use crate::stats::error::PictureError;
 use crate::stats::stopping::{self, Checkpoints};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -59,6 +60,8 @@ pub struct Progress {
     pub error: Option<PictureError>,
     /// The share of proposals taken when it was last looked at, for chains.
     pub acceptance: Option<f64>,
+    /// With a target: the time that is expected to be left until it is reached, and the target. `None` until the error was looked at.
+    pub to_target: Option<(Duration, f64)>,
 }
 
 /// How a render ended.
@@ -92,6 +95,8 @@ pub fn drive(
     let mut checkpoint = checkpoints.next(render.steps());
     let mut error: Option<PictureError> = None;
     let mut acceptance = None;
+    let mut look = None;
+    let begun = render.steps();
     let samples = AtomicU64::new(u64::from(render.chains()) * render.steps());
     let mut burst = 1;
     let stop = loop {
@@ -112,6 +117,9 @@ pub fn drive(
         let began = Instant::now();
         let finished = render.steps();
         let total = u64::from(render.chains());
+        let last_step = target_error
+            .zip(look)
+            .and_then(|(target, look)| Some((steps_to_target(look, target, &checkpoints)?, target)));
         render.burst(steps, &|more| {
             let samples = samples.fetch_add(more, Ordering::Relaxed) + more;
             let fraction = match budget {
@@ -123,7 +131,15 @@ pub fn drive(
                 let ratio = target / error.upper.max(f64::MIN_POSITIVE);
                 ratio * ratio
             });
+            // Start-up is over when bursts begin: the pace is that of steps.
+            let taken = samples as f64 / total as f64;
+            let pace = start.elapsed().as_secs_f64() / (taken - begun as f64).max(f64::MIN_POSITIVE);
+            let to_target = last_step.and_then(|(steps, target)| {
+                let left = Duration::try_from_secs_f64((steps as f64 - taken).max(0.0) * pace);
+                Some((left.ok()?, target))
+            });
             progress(Progress {
+                to_target,
                 fraction: fraction.max(towards_target).min(1.0),
                 samples,
                 steps: finished,
@@ -136,6 +152,10 @@ pub fn drive(
         if render.steps() >= checkpoint {
             checkpoint = checkpoints.next(render.steps());
             (error, acceptance) = (render.error(), render.acceptance());
+            look = error.map(|error| LastLook {
+                steps: render.steps(),
+                upper: error.upper,
+            });
             if let (Some(target), Some(error)) = (target_error, error)
                 && stopping::decide(&error, target)
             {

@@ -14,6 +14,7 @@ mod group;
 mod layers;
 mod lone_chain;
 mod pilot;
+mod remaining;
 mod rendering;
 mod samples;
 mod saved;
@@ -34,6 +35,7 @@ pub use findings::{ClassAgreement, ClassFinding, Findings, LengthFindings, Mutat
 pub use group::Start;
 pub use layers::{LayerFinding, LayerRecord};
 pub use lone_chain::{LoneChain, LoneStart};
+pub use remaining::{LastLook, steps_to_target};
 pub use rendering::{Rendering, error_blocks};
 pub use saved::SavedRenderError;
 pub use splats::SplatRender;

@@ -7,14 +7,24 @@
 //! - A [`Reference`] knows its own error. Errors against it are lowered by that, and where they come near it, curves end.
 //! - A [`Summary`] is what the runs of one way have to say: medians and bands, times to errors, efficiency, slope, each with an interval.
 
+mod choice;
 mod estimates;
+mod outlook;
+mod pilot;
+mod pooled;
+mod prediction;
 mod reference;
 mod run;
 mod spectrum;
 mod study_file;
 mod summary;
 
+pub use choice::{Candidate, Choice, Rival, choose};
 pub use estimates::Interval;
+pub use outlook::{Foreseen, Outlook};
+pub use pilot::{Pilot, PilotEnd, PilotLook, pilot};
+pub use pooled::{ExpectedError, Pooled};
+pub use prediction::{Forecast, Predicted, Prediction};
 pub use reference::{Reference, ReferenceError, ReferenceRecord};
 pub use run::{checkpoints, run_once, split_run};
 pub use spectrum::{BANDS, Spectrum, band_name};

@@ -2,6 +2,7 @@
 
 mod black;
 mod chains;
+mod cost;
 mod layers;
 mod options;
 mod study;
