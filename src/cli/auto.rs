@@ -1,24 +1,25 @@
 //! `render --technique auto`: the technique that promises most, by pilots.
 
 use super::load::{Loaded, SceneArgs, TechniqueChoice};
+use super::memory;
 use super::output::{duration, note};
 use super::pilots::{PilotTime, Tried, Way, progress_bar, try_all};
 use super::verdict::{self, Goal};
-use super::{memory, ways::DEFAULT_TECHNIQUES};
-use crate::plan::Registry;
+use crate::plan::{Registry, Technique};
 use miette::{Result, miette};
 use serde::Serialize;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-/// The share of `--time` that all pilots together have, and the one that each may take to start: a technique that starts longer
-/// than this has little left of a render so short.
+/// What is chosen from, in the order in which it is tried: chains take time to start, and those of mlt as a rule are worth more.
+const CANDIDATES: [Technique; 4] = [Technique::Pt, Technique::Mlt, Technique::Bdpt, Technique::Pssmlt];
+/// The share of `--time` that pilots have together, and the one after which none is waited for that has not started: chains have to.
 const SHARE_OF_TIME: f64 = 0.1;
-const PATIENCE_OF_TIME: f64 = 0.04;
-/// Where no time is given: how long each pilot is, and how long it may take to start.
-const PILOT: PilotTime = PilotTime {
+const MOST_OF_TIME: f64 = 0.14;
+/// The same where no time is given.
+const PILOTS: PilotTime = PilotTime {
     each: Duration::from_secs(1),
-    patience: Duration::from_secs(10),
+    all: Duration::from_secs(20),
 };
 /// How long a render is taken to be where even that cannot be told.
 const UNKNOWN_TIME: f64 = 10.0;
@@ -59,9 +60,9 @@ pub(super) fn choose(
     let began = Instant::now();
     let ways = load(args, asked.threads, registry)?;
     let bar = progress_bar(ways.len());
-    let pilots = asked.time.map_or(PILOT, |time| PilotTime {
+    let pilots = asked.time.map_or(PILOTS, |time| PilotTime {
         each: time.mul_f64(SHARE_OF_TIME / ways.len() as f64),
-        patience: time.mul_f64(PATIENCE_OF_TIME),
+        all: time.mul_f64(MOST_OF_TIME),
     });
     let tried = try_all(&ways, pilots, (asked.seed, asked.threads), interrupt, &bar)?;
     bar.finish_and_clear();
@@ -74,7 +75,7 @@ pub(super) fn choose(
     };
     let verdict = verdict::of(&tried, goal);
     let taken = verdict.taken.unwrap_or(0);
-    let technique = DEFAULT_TECHNIQUES[taken];
+    let technique = CANDIDATES[taken];
     let why = match verdict.taken {
         Some(_) => verdict.sentence,
         None => format!("{technique}, for {}", verdict.sentence),
@@ -99,7 +100,7 @@ fn seconds_of(tried: &[Tried], samples: f64) -> f64 {
 
 fn load(args: &SceneArgs, threads: usize, registry: &Registry) -> Result<Vec<Way>> {
     let mut ways: Vec<Way> = Vec::new();
-    for technique in DEFAULT_TECHNIQUES {
+    for technique in CANDIDATES {
         let loaded: Loaded = match ways.first() {
             None => {
                 let first = SceneArgs {

@@ -46,6 +46,9 @@ pub struct CostArgs {
     json: bool,
 }
 
+/// What no pilot can tell.
+const ASSUMES: &str = "assumed: a machine as busy as now, errors that go on falling as in the pilots, and no light that no pilot has found";
+
 /// What `--json` prints.
 #[derive(Serialize)]
 pub(super) struct Report {
@@ -56,6 +59,8 @@ pub(super) struct Report {
     /// Seconds of each pilot, as asked for.
     pub(super) pilot_seconds: f64,
     pub(super) ways: Vec<WayReport>,
+    /// What predictions assume.
+    pub(super) assumes: &'static str,
     /// The name of the way that it would take.
     pub(super) choice: Option<String>,
     /// What the choice goes by.
@@ -117,7 +122,7 @@ pub fn run(args: &CostArgs, registry: &Registry) -> Result<ExitCode> {
     let bar = progress_bar(ways.len());
     let time = PilotTime {
         each: args.pilot,
-        patience: Duration::MAX,
+        all: Duration::MAX,
     };
     let tried = try_all(&ways, time, (args.seed, threads), &interrupt, &bar)?;
     bar.finish_and_clear();
@@ -142,6 +147,7 @@ pub fn run(args: &CostArgs, registry: &Registry) -> Result<ExitCode> {
             .iter()
             .map(|way| way_report(way, &errors, args.target_error))
             .collect(),
+        assumes: ASSUMES,
         choice: verdict.taken.map(|taken| tried[taken].name.clone()),
         goal: goal.to_string(),
         why: verdict.sentence,

@@ -35,6 +35,7 @@ pub(super) fn table(report: &Report) -> String {
     for missing in report.ways.iter().flat_map(|way| &way.missing) {
         let _ = writeln!(out, "warning: {missing}");
     }
+    let _ = writeln!(out, "{}", report.assumes);
     out + &report.why
 }
 

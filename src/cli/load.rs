@@ -25,7 +25,7 @@ pub struct SceneArgs {
     /// The scene file: RON, or JSON by its extension
     pub scene: PathBuf,
     /// How to estimate the picture: pt, pt-reference, lt, bdpt, pssmlt, pssmlt-reference, mlt; for `render` also auto, which tries
-    /// pt, bdpt, pssmlt and mlt first and takes what promises most [default: the scene's, or pt]
+    /// pt, mlt, bdpt and pssmlt first and takes what promises most [default: the scene's, or pt]
     #[arg(long, value_name = "NAME")]
     pub technique: Option<TechniqueChoice>,
     /// Film size in pixels instead of the scene's, such as 640x480

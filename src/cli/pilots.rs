@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use miette::{Result, WrapErr};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Pilots' seeds are so far from those of renders and of references.
 const PILOT_SEED: u64 = 1 << 47;
@@ -75,8 +75,8 @@ pub(super) fn load(
 pub(super) struct PilotTime {
     /// Seconds of each, start-up included.
     pub(super) each: Duration,
-    /// How long each may take to start.
-    pub(super) patience: Duration,
+    /// How long all may take: one that has not started then is given up.
+    pub(super) all: Duration,
 }
 
 /// Tries every way. `None` if somebody interrupted it.
@@ -90,6 +90,7 @@ pub(super) fn try_all(
     interrupt: &AtomicBool,
     bar: &ProgressBar,
 ) -> Result<Option<Vec<Tried>>> {
+    let began = Instant::now();
     let mut tried = Vec::new();
     for way in ways {
         bar.set_message(format!("pilot of {}", way.name));
@@ -98,7 +99,7 @@ pub(super) fn try_all(
             (&way.loaded.scene, plan),
             (seed.wrapping_add(PILOT_SEED), threads),
             time.each.as_secs_f64(),
-            time.patience,
+            time.all.saturating_sub(began.elapsed()),
             interrupt,
             &|| bar.tick(),
         )?;

@@ -85,9 +85,21 @@ pub(super) fn of(tried: &[Tried], goal: Goal) -> Verdict {
     for &(number, rival) in &choice.rivals {
         match rival {
             Rival::Dearer(times) => dearer.push(format!("{} {}", times_in_words(times), goal.than(name(number)))),
-            Rival::Alike(times) => alike.push(format!("{} {}", times_in_words(times), goal.than(name(number)))),
-            Rival::MissesMore => missing.push(name(number)),
-            Rival::Unknown => unknown.push(name(number)),
+            Rival::Alike(Prediction {
+                value,
+                bounds: [low, high],
+            }) => alike.push(format!(
+                "{} ({}, {} to {})",
+                name(number),
+                significant(value),
+                significant(low),
+                significant(high)
+            )),
+            Rival::MissesMore => missing.push(name(number).to_owned()),
+            Rival::Unknown if tried[number].pilot.is_none() => {
+                unknown.push(format!("{} (it did not start in time)", name(number)));
+            }
+            Rival::Unknown => unknown.push(name(number).to_owned()),
         }
     }
     let mut parts = Vec::new();
@@ -95,10 +107,7 @@ pub(super) fn of(tried: &[Tried], goal: Goal) -> Verdict {
         parts.push(dearer.join(", "));
     }
     if !alike.is_empty() {
-        parts.push(format!(
-            "cannot be told from some, but best in the median: {}",
-            alike.join(", ")
-        ));
+        parts.push(format!("{} cannot be told from it", alike.join(" and ")));
     }
     if !missing.is_empty() {
         parts.push(format!(
