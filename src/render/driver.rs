@@ -50,7 +50,7 @@ pub enum Stop {
 /// How far a render is.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
-    /// Share of the budget that is spent, in [0, 1].
+    /// Share of the budget that is spent, in [0, 1], or of the work that the target is expected to take, if that is more.
     pub fraction: f64,
     /// Samples taken so far.
     pub samples: u64,
@@ -126,11 +126,6 @@ pub fn drive(
                 Budget::Steps(steps) => samples as f64 / (steps as f64 * total as f64),
                 Budget::Time(limit) => start.elapsed().as_secs_f64() / limit.as_secs_f64().max(1e-9),
             };
-            // Errors fall with the root of the work.
-            let towards_target = target_error.zip(error).map_or(0.0, |(target, error)| {
-                let ratio = target / error.upper.max(f64::MIN_POSITIVE);
-                ratio * ratio
-            });
             // Start-up is over when bursts begin: the pace is that of steps.
             let taken = samples as f64 / total as f64;
             let pace = start.elapsed().as_secs_f64() / (taken - begun as f64).max(f64::MIN_POSITIVE);
@@ -138,6 +133,7 @@ pub fn drive(
                 let left = Duration::try_from_secs_f64((steps as f64 - taken).max(0.0) * pace);
                 Some((left.ok()?, target))
             });
+            let towards_target = last_step.map_or(0.0, |(steps, _)| taken / steps as f64);
             progress(Progress {
                 to_target,
                 fraction: fraction.max(towards_target).min(1.0),
