@@ -26,7 +26,7 @@ pub struct CostArgs {
     /// Seconds of each pilot, start-up included; longer ones make predictions surer
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, default_value = "3")]
     pilot: Duration,
-    /// Errors to predict the times to: of relMSE as they are, and relative over block means
+    /// Errors to predict the times to: as relMSE, and as the --target-error of `render`
     #[arg(long, value_name = "E,...", value_delimiter = ',', value_parser = parse_error, default_value = "0.1,0.03,0.01")]
     errors: Vec<f64>,
     /// Choose what will be the first to be stopped by this --target-error of `render`, instead of the first to have the least of

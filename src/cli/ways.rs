@@ -7,9 +7,6 @@ use clap::{Args, Parser};
 use miette::{Result, miette};
 use std::path::Path;
 
-/// Techniques that are compared where nobody says which.
-pub const DEFAULT_TECHNIQUES: [Technique; 4] = [Technique::Pt, Technique::Bdpt, Technique::Pssmlt, Technique::Mlt];
-
 /// Which ways to compare.
 #[derive(Args, Clone, Debug)]
 pub struct WayArgs {
@@ -19,7 +16,7 @@ pub struct WayArgs {
         value_name = "NAME,...",
         value_delimiter = ',',
         value_parser = parse_technique,
-        default_values_t = DEFAULT_TECHNIQUES
+        default_value = "pt,bdpt,pssmlt,mlt"
     )]
     techniques: Vec<Technique>,
     /// One more way to render: a name, and options of `render`, such as "no lens=--technique mlt --mutation lens:weight=0"
