@@ -35,17 +35,6 @@ pub fn bytes(count: u64) -> String {
     }
 }
 
-/// A time for people: `3.2 s`, `5 min`, `2.1 h`, `4.0 d`.
-pub fn duration(seconds: f64) -> String {
-    match seconds {
-        s if s < 10.0 => format!("{s:.1} s"),
-        s if s < 120.0 => format!("{s:.0} s"),
-        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
-        s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
-        s => format!("{:.1} d", s / 86_400.0),
-    }
-}
-
 /// A count for people: `12.3 M`.
 pub fn count(value: f64) -> String {
     match value {
@@ -109,10 +98,6 @@ mod tests {
         assert_eq!(bytes(1023), "1023 B");
         assert_eq!(bytes(1536), "1.5 KiB");
         assert_eq!(bytes(u64::MAX), "16777216.0 TiB");
-        assert_eq!(
-            [3.24, 59.6, 300.0, 7560.0, 345_600.0].map(duration),
-            ["3.2 s", "60 s", "5 min", "2.1 h", "4.0 d"]
-        );
         assert_eq!(count(999.0), "999");
         assert_eq!(count(12_345_678.0), "12.35 M");
     }
