@@ -28,6 +28,9 @@ struct Report<'a> {
     effects: Vec<EffectRow<'a>>,
     /// Light that the technique cannot find here.
     missing: Vec<MissingRow<'a>>,
+    /// Layers that light is split into, by name: their light path expressions.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    layers: Vec<LayerRow<'a>>,
     chains: Option<ChainRow>,
     #[serde(flatten)]
     tile: TileReport<'a>,
@@ -67,6 +70,12 @@ struct EffectRow<'a> {
     name: &'static str,
     on: bool,
     reason: &'a str,
+}
+
+#[derive(Serialize)]
+struct LayerRow<'a> {
+    name: &'a str,
+    expression: &'a str,
 }
 
 #[derive(Serialize)]
@@ -192,6 +201,7 @@ fn report<'a>(plan: &'a Plan, built: &'a Built, of_direct: Option<&'a Built>, pi
             })
             .collect(),
         missing: plan.missing.iter().map(missing_row).collect(),
+        layers: layer_rows(plan),
         chains: plan.chains.as_ref().map(chain_row),
         tile: tile_report(&plan.tile, built, plan.tiles(pixels)),
         direct,
@@ -200,6 +210,14 @@ fn report<'a>(plan: &'a Plan, built: &'a Built, of_direct: Option<&'a Built>, pi
         tree_bytes: plan.tree_bytes,
         film_bytes: plan.film_bytes,
     }
+}
+
+fn layer_rows(plan: &Plan) -> Vec<LayerRow<'_>> {
+    let named = plan
+        .layers
+        .iter()
+        .flat_map(|layers| layers.names().iter().zip(layers.expressions()));
+    named.map(|(name, expression)| LayerRow { name, expression }).collect()
 }
 
 fn missing_row(missing: &Missing) -> MissingRow<'_> {
@@ -273,6 +291,12 @@ fn text(report: &Report<'_>) -> String {
             if effect.on { "on" } else { "off" },
             effect.reason
         );
+    }
+    if !report.layers.is_empty() {
+        out += "\nlayers: a path is in the first that it matches\n";
+        for layer in &report.layers {
+            let _ = writeln!(out, "  {:<20} {}", layer.name, layer.expression);
+        }
     }
     if !report.missing.is_empty() {
         let _ = writeln!(out, "\nmissing: {} cannot find", report.technique);

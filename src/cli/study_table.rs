@@ -1,6 +1,7 @@
 //! What a study says, as a table for people.
 
-use crate::study::{Interval, Measure, SceneStudy, Summary, TimeTo};
+use crate::report::words::{interval, seconds};
+use crate::study::{Measure, SceneStudy, Summary};
 use std::fmt::Write;
 
 /// The measures of the table.
@@ -73,31 +74,4 @@ fn row(summary: &Summary) -> String {
             some => interval(some, |v| format!("{v:.2}")),
         }
     )
-}
-
-fn interval(interval: Option<Interval>, show: impl Fn(f64) -> String) -> String {
-    match interval {
-        None => "not known".to_owned(),
-        Some(Interval { value, bounds }) => format!("{} ({} to {})", show(value), show(bounds[0]), show(bounds[1])),
-    }
-}
-
-/// The time to an error: what most runs did not reach is longer than a run.
-fn seconds(time: Option<&TimeTo>) -> String {
-    let show = |v: f64| {
-        if v.is_finite() {
-            format!("{v:.2}")
-        } else {
-            "...".to_owned()
-        }
-    };
-    match time {
-        None => "no telling".to_owned(),
-        Some(time) if !time.seconds.value.is_finite() => "longer".to_owned(),
-        Some(time) => {
-            let [low, high] = time.seconds.bounds;
-            let most = if time.at_most { "< " } else { "" };
-            format!("{most}{} ({}-{})", show(time.seconds.value), show(low), show(high))
-        }
-    }
 }

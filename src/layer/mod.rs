@@ -26,6 +26,7 @@
 //! A path belongs to the first layer whose expression it matches, and to [`REST`] if there is none. So layers share no path, and every
 //! path is in one of them.
 
+mod automaton;
 mod columns;
 mod expression;
 mod film;

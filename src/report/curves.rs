@@ -1,6 +1,7 @@
 //! Error against time, or against samples.
 
 use super::log_axis::{label, range};
+use super::series::{legend, line};
 use super::{FONT, PlotError, SIZE, color};
 use crate::study::{Measure, Point, SceneStudy, Summary};
 use plotters::prelude::*;
@@ -76,26 +77,14 @@ pub fn error_curves(scene: &SceneStudy, measure: Measure, against: Against) -> R
             .bold_line_style(BLACK.mix(0.15))
             .draw()?;
         for (number, (name, points)) in curves.iter().enumerate() {
-            let color = color(number);
             let lowest = up.start;
             let at = |quantile: usize| move |point: &Point| (against.of(point), point.quantiles[quantile].max(lowest));
             let mut band: Vec<(f64, f64)> = points.iter().map(at(2)).collect();
             band.extend(points.iter().rev().map(at(0)));
-            chart.draw_series([Polygon::new(band, color.mix(0.18))])?;
-            let line: Vec<(f64, f64)> = points.iter().map(at(1)).collect();
-            chart
-                .draw_series([PathElement::new(line.clone(), color.stroke_width(2))])?
-                .label(name)
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], color.stroke_width(3)));
-            chart.draw_series(line.into_iter().map(|point| Circle::new(point, 3, color.filled())))?;
+            chart.draw_series([Polygon::new(band, color(number).mix(0.18))])?;
+            line(&mut chart, (number, name), points.iter().map(at(1)).collect())?;
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.2))
-            .label_font((FONT, 14))
-            .draw()?;
+        legend(&mut chart)?;
         root.present()?;
     }
     Ok(Some(svg))

@@ -5,8 +5,10 @@ mod log_axis;
 mod markup;
 mod page;
 mod pictures;
+mod series;
 mod spectra;
 mod tables;
+pub mod words;
 
 pub use curves::{Against, error_curves};
 pub use page::page;

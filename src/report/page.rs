@@ -11,6 +11,12 @@ use std::fmt::Write;
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 
+/// What errors are.
+const NOTES: &str = "<p class=\"hint\">With a the picture and r the reference, over pixels and channels: MSE = mean (a \u{2212} r)\u{b2}; relMSE = mean \
+    (a \u{2212} r)\u{b2} / (r\u{b2} + 0.01), also without the 0.1 % of the pixels where it is largest; SMAPE = mean 2 |a \u{2212} r| / (|a| + |r| + 0.01); \
+    FLIP is the mean of the differences that an eye sees when the pictures take each other's place. Errors that the reference has itself are taken off. \
+    Bands are from the 10 % to the 90 % quantile of runs; efficiency is 1 / (error \u{d7} time) over that of the first way.</p>\n";
+
 /// The page of a study, with the pictures of its scenes in the same order.
 ///
 /// # Errors
@@ -47,7 +53,7 @@ fn settings(study: &Study) -> String {
             escaped(&way.options.join(" "))
         );
     }
-    out + "</ul>\n"
+    out + "</ul>\n" + NOTES
 }
 
 fn of_scene(scene: &SceneStudy, shown: &Shown) -> Result<String, PlotError> {

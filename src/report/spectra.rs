@@ -1,7 +1,8 @@
 //! Where in a picture's frequencies errors are.
 
 use super::log_axis::{label, range};
-use super::{FONT, PlotError, SIZE, color};
+use super::series::{legend, line};
+use super::{FONT, PlotError, SIZE};
 use crate::study::{BANDS, SceneStudy, WayStudy, band_name};
 use plotters::prelude::*;
 
@@ -50,20 +51,9 @@ pub fn error_spectra(scene: &SceneStudy) -> Result<Option<String>, PlotError> {
             .bold_line_style(BLACK.mix(0.15))
             .draw()?;
         for (number, (name, bands)) in spectra.iter().enumerate() {
-            let color = color(number);
-            chart
-                .draw_series([PathElement::new(bands.clone(), color.stroke_width(2))])?
-                .label(name)
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], color.stroke_width(3)));
-            chart.draw_series(bands.iter().map(|&point| Circle::new(point, 3, color.filled())))?;
+            line(&mut chart, (number, name), bands.clone())?;
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.2))
-            .label_font((FONT, 14))
-            .draw()?;
+        legend(&mut chart)?;
         root.present()?;
     }
     Ok(Some(svg))

@@ -1,7 +1,8 @@
 //! Tables of a page.
 
 use super::markup::escaped;
-use crate::study::{Interval, LayerRun, Measure, SceneStudy, Summary, TimeTo, WayStudy};
+use super::words::{interval, seconds};
+use crate::study::{LayerRun, Measure, SceneStudy, Summary, WayStudy};
 use std::fmt::Write;
 
 /// What all runs say, of one measure.
@@ -11,6 +12,7 @@ pub(super) fn summaries(scene: &SceneStudy, measure: Measure) -> String {
         let summary = Summary::of(scene, way, measure);
         let Some(end) = summary.points.last() else { continue };
         let [low, middle, high] = end.quantiles;
+        let two = |v: f64| format!("{v:.2}");
         let time = |error: f64| seconds(summary.times.iter().find(|time| time.error == error));
         // Writing to a String cannot fail.
         let _ = write!(
@@ -20,13 +22,13 @@ pub(super) fn summaries(scene: &SceneStudy, measure: Measure) -> String {
             escaped(&way.name),
             end.runs,
             end.seconds,
-            interval(summary.slope, 2),
+            interval(summary.slope, two),
             time(1e-1),
             time(1e-2),
             time(1e-3),
             summary
                 .efficiency
-                .map_or_else(|| "1".to_owned(), |of| interval(Some(of), 2)),
+                .map_or_else(|| "1".to_owned(), |of| interval(Some(of), two)),
         );
     }
     format!(
@@ -41,10 +43,7 @@ pub(super) fn bias(scene: &SceneStudy) -> String {
     let mut rows = String::new();
     for way in &scene.ways {
         let summary = Summary::of(scene, way, Measure::RelMse);
-        let squared = summary.squared_bias.map_or_else(
-            || "not known".to_owned(),
-            |of| format!("{:.1e} ({:.1e} to {:.1e})", of.value, of.bounds[0], of.bounds[1]),
-        );
+        let squared = interval(summary.squared_bias, |v| format!("{v:.1e}"));
         let last: Vec<_> = way.runs.iter().filter_map(|run| run.snapshots.last()).collect();
         let mean = |values: Vec<f64>| (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64);
         let show = |value: Option<f64>| value.map_or_else(|| "not known".to_owned(), |value| format!("{value:.4}"));
@@ -154,33 +153,4 @@ pub(super) fn layers(scene: &SceneStudy) -> String {
          <tr><th></th>{head}</tr><tr><th></th>{columns}</tr>{rows}</table>",
         first.seconds
     )
-}
-
-fn interval(interval: Option<Interval>, digits: usize) -> String {
-    match interval {
-        None => "not known".to_owned(),
-        Some(Interval {
-            value,
-            bounds: [low, high],
-        }) => format!("{value:.digits$} ({low:.digits$} to {high:.digits$})"),
-    }
-}
-
-fn seconds(time: Option<&TimeTo>) -> String {
-    let show = |v: f64| {
-        if v.is_finite() {
-            format!("{v:.2}")
-        } else {
-            "longer".to_owned()
-        }
-    };
-    match time {
-        None => "no telling".to_owned(),
-        Some(time) if !time.seconds.value.is_finite() => "longer".to_owned(),
-        Some(time) => {
-            let [low, high] = time.seconds.bounds;
-            let most = if time.at_most { "at most " } else { "" };
-            format!("{most}{} ({} to {})", show(time.seconds.value), show(low), show(high))
-        }
-    }
 }

@@ -307,6 +307,7 @@ mod tests {
             technique: name.to_owned(),
             settings: String::new(),
             runs: (0..9).map(run).collect(),
+            layers: None,
         }
     }
 

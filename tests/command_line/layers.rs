@@ -61,6 +61,8 @@ fn a_picture_has_its_layers_and_the_report_what_they_cost() {
         assert!(png.exists(), "{name} is not shown");
         assert!(channels.contains(&format!("{name}.R")), "{channels:?}");
     }
+    let plan = succeed(&["plan", &glass, "--layers"], folder.path());
+    assert!(plan.contains("\n  caustic              C.*[DG]S+L\n"), "{plan}");
     let text = succeed(&arguments, folder.path());
     assert!(
         text.contains("1 % after") && text.contains("\ncaustic        C.*[DG]S+L "),
