@@ -12,6 +12,7 @@
 //! ```
 #![expect(clippy::print_stdout, reason = "an example prints what it found")]
 
+use chainlight::report::words;
 use chainlight::study::{Measure, SceneStudy, Settings, Study, Summary};
 use clap::Parser;
 use miette::{Context, IntoDiagnostic, Result, ensure, miette};
@@ -147,13 +148,12 @@ fn compare(scene: &SceneStudy, cost: &Value, measure: Measure, place: usize, hel
                 inside: low <= true_time && true_time <= high,
             };
             println!(
-                "{}, {} ({number}), {}, {}: {value:.2} ({low:.2} to {high:.2}), {true_time:.2} ({:.2} to {:.2}), {:.2}{}",
+                "{}, {} ({number}), {}, {}: {value:.2} ({low:.2} to {high:.2}), {}, {:.2}{}",
                 scene.name,
                 way.name,
                 measure.name(),
                 truth.error,
-                truth.seconds.bounds[0],
-                truth.seconds.bounds[1],
+                words::seconds(Some(truth)),
                 found.factor,
                 if found.inside { "" } else { " outside" }
             );

@@ -49,12 +49,7 @@ pub fn table(scene: &SceneStudy) -> String {
 }
 
 fn row(summary: &Summary) -> String {
-    let Some(end) = summary
-        .points
-        .iter()
-        .rfind(|point| !point.is_reference)
-        .or(summary.points.last())
-    else {
+    let Some(end) = summary.end() else {
         return format!("{:<16} nothing was looked at", summary.way);
     };
     let [low, middle, high] = end.quantiles;

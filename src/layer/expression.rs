@@ -143,6 +143,9 @@ pub(super) fn translate(expression: &str) -> Result<String, ExpressionError> {
                 }
             }
             (None, ']') if set.is_some() => {
+                if translation.pattern.ends_with(['[', '^']) {
+                    return Err(translation.error("this set is empty", at, 1));
+                }
                 set = None;
                 translation.push("]", at);
             }
@@ -213,7 +216,8 @@ mod tests {
             ("C(?i)L", "`?` stands behind `(`"),
             ("CD{2L", "unclosed counted repetition"),
             ("CD{3,2}L", "invalid repetition count range"),
-            ("CD[]L", "this set is not closed"),
+            ("CD[]L", "this set is empty"),
+            ("CD[^]L", "this set is empty"),
             ("CD[a]L", "`a` means nothing here"),
         ] {
             let error = translate(expression).expect_err(expression);

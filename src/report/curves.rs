@@ -1,6 +1,6 @@
 //! Error against time, or against samples.
 
-use super::log_axis::{label, range};
+use super::log_axis::{labels, range};
 use super::series::{legend, line};
 use super::{FONT, PlotError, SIZE, color};
 use crate::study::{Measure, Point, SceneStudy, Summary};
@@ -54,6 +54,7 @@ pub fn error_curves(scene: &SceneStudy, measure: Measure, against: Against) -> R
     let (Some(across), Some(up)) = (across, up) else {
         return Ok(None);
     };
+    let (across_label, up_label) = (labels(&across), labels(&up));
     let mut svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
@@ -68,8 +69,8 @@ pub fn error_curves(scene: &SceneStudy, measure: Measure, against: Against) -> R
             .configure_mesh()
             .x_desc(against.words())
             .y_desc(measure.name())
-            .x_label_formatter(&|v| label(*v))
-            .y_label_formatter(&|v| label(*v))
+            .x_label_formatter(&across_label)
+            .y_label_formatter(&up_label)
             .max_light_lines(5)
             .label_style((FONT, 14))
             .axis_desc_style((FONT, 15))

@@ -13,8 +13,20 @@ pub(super) fn range(values: impl Iterator<Item = f64>) -> Option<Range<f64>> {
     Some(low / margin..high * margin)
 }
 
+/// Writes values beside an axis: where it has more than a decade 1, 2 and 5 of each, so that labels do not run into each other.
+pub(super) fn labels(axis: &Range<f64>) -> impl Fn(&f64) -> String + use<> {
+    let crowded = axis.end > 10.0 * axis.start;
+    move |&value| {
+        let digit = libm::round(value / libm::pow(10.0, libm::floor(libm::log10(value) + 1e-9)));
+        if crowded && ![1.0, 2.0, 5.0, 10.0].contains(&digit) {
+            return String::new();
+        }
+        label(value)
+    }
+}
+
 /// A value beside its axis: powers of ten as such, others as they are.
-pub(super) fn label(value: f64) -> String {
+fn label(value: f64) -> String {
     let power = libm::log10(value);
     let rounded = power.round();
     if (power - rounded).abs() < 1e-9 && rounded.abs() > 2.5 {
@@ -41,6 +53,15 @@ mod tests {
         let one = range([2.0].into_iter()).expect("a value");
         assert!(one.start < 2.0 && one.end > 2.0);
         assert_eq!(range([0.0, f64::NAN].into_iter()), None);
+    }
+
+    #[test]
+    fn long_axes_have_few_labels() {
+        let values = [0.1, 0.2, 0.3, 0.5, 0.9, 1.0, 4.0, 5.0];
+        let long = labels(&(0.09..6.0));
+        assert_eq!(values.map(|v| long(&v)), ["0.1", "0.2", "", "0.5", "", "1", "", "5"]);
+        let short = labels(&(0.2..1.0));
+        assert_eq!(values.map(|v| short(&v))[2], "0.3");
     }
 
     #[test]

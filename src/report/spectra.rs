@@ -1,6 +1,6 @@
 //! Where in a picture's frequencies errors are.
 
-use super::log_axis::{label, range};
+use super::log_axis::{labels, range};
 use super::series::{legend, line};
 use super::{FONT, PlotError, SIZE};
 use crate::study::{BANDS, SceneStudy, WayStudy, band_name};
@@ -20,6 +20,7 @@ pub fn error_spectra(scene: &SceneStudy) -> Result<Option<String>, PlotError> {
     if spectra.iter().all(|(_, bands)| bands.is_empty()) {
         return Ok(None);
     }
+    let up_label = labels(&up);
     let mut svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
@@ -43,7 +44,7 @@ pub fn error_spectra(scene: &SceneStudy) -> Result<Option<String>, PlotError> {
             .x_desc("cycles per pixel")
             .y_desc("power per frequency, relative to even noise")
             .x_label_formatter(&name)
-            .y_label_formatter(&|v| label(*v))
+            .y_label_formatter(&up_label)
             .max_light_lines(5)
             .label_style((FONT, 12))
             .axis_desc_style((FONT, 15))

@@ -10,7 +10,7 @@ pub(super) fn summaries(scene: &SceneStudy, measure: Measure) -> String {
     let mut rows = String::new();
     for way in &scene.ways {
         let summary = Summary::of(scene, way, measure);
-        let Some(end) = summary.points.last() else { continue };
+        let Some(end) = summary.end() else { continue };
         let [low, middle, high] = end.quantiles;
         let two = |v: f64| format!("{v:.2}");
         let time = |error: f64| seconds(summary.times.iter().find(|time| time.error == error));
@@ -32,7 +32,7 @@ pub(super) fn summaries(scene: &SceneStudy, measure: Measure) -> String {
         );
     }
     format!(
-        "<table><caption>{} at the end of runs; intervals of 95 %</caption><tr><th></th><th>runs</th><th>s</th><th>median</th>\
+        "<table><caption>{} at the end of runs; intervals of 95 %, those of times where there are six runs or more</caption><tr><th></th><th>runs</th><th>s</th><th>median</th>\
          <th>10 % to 90 %</th><th>slope</th><th>s to 1e-1</th><th>s to 1e-2</th><th>s to 1e-3</th><th>efficiency</th></tr>{rows}</table>",
         escaped(measure.name())
     )
@@ -73,10 +73,10 @@ pub(super) fn stages(scene: &SceneStudy) -> String {
     }
     let seconds = |way: &WayStudy, name: &str| -> f64 {
         let stages = way.runs.iter().flat_map(|run| &run.stages);
+        // Not a sum, which is -0 of nothing.
         stages
             .filter(|stage| stage.stage == name)
-            .map(|stage| stage.seconds)
-            .sum()
+            .fold(0.0, |sum, stage| sum + stage.seconds)
     };
     let head: String = names.iter().map(|name| format!("<th>{}</th>", escaped(name))).collect();
     let mut rows = String::new();

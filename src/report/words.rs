@@ -11,7 +11,8 @@ pub fn interval(interval: Option<Interval>, show: impl Fn(f64) -> String) -> Str
     }
 }
 
-/// The time to an error, in seconds: what most runs did not reach is longer than a run.
+/// The time to an error, in seconds: what most runs did not reach is longer than a run. Without an interval where runs are too few
+/// for one.
 #[must_use]
 pub fn seconds(time: Option<&TimeTo>) -> String {
     let show = |v: f64| {
@@ -27,7 +28,11 @@ pub fn seconds(time: Option<&TimeTo>) -> String {
         Some(time) => {
             let [low, high] = time.seconds.bounds;
             let most = if time.at_most { "< " } else { "" };
-            format!("{most}{} ({}-{})", show(time.seconds.value), show(low), show(high))
+            let value = show(time.seconds.value);
+            if low == 0.0 && high.is_infinite() {
+                return format!("{most}{value}");
+            }
+            format!("{most}{value} ({}-{})", show(low), show(high))
         }
     }
 }
@@ -57,5 +62,13 @@ mod tests {
         assert_eq!(seconds(Some(&time(1.5, f64::INFINITY, true))), "< 1.50 (1.00-...)");
         assert_eq!(seconds(Some(&time(f64::INFINITY, f64::INFINITY, false))), "longer");
         assert_eq!(seconds(None), "no telling");
+        let few = TimeTo {
+            seconds: Interval {
+                value: 1.5,
+                bounds: [0.0, f64::INFINITY],
+            },
+            ..time(1.5, f64::INFINITY, false)
+        };
+        assert_eq!(seconds(Some(&few)), "1.50");
     }
 }

@@ -127,6 +127,13 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// Where the curve ends: the last look that can be told from the reference, or the last of all where none can.
+    #[must_use]
+    pub fn end(&self) -> Option<&Point> {
+        let told = self.points.iter().rfind(|point| !point.is_reference);
+        told.or(self.points.last())
+    }
+
     /// What the runs of `way` in `scene` have to say.
     #[must_use]
     pub fn of(scene: &SceneStudy, way: &WayStudy, measure: Measure) -> Self {
