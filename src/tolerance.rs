@@ -44,4 +44,4 @@ pub const CULL_SLACK: f32 = 1.0 + 6.0 * F32_ROUNDING;
 pub const LEAST_ROUGHNESS: f32 = 1e-4;
 
 /// Half the distance from 1 to the next f32: the largest relative error of one rounding.
-const F32_ROUNDING: f32 = f32::EPSILON * 0.5;
+pub const F32_ROUNDING: f32 = f32::EPSILON * 0.5;

@@ -4,6 +4,7 @@ use super::chains::ChainArgs;
 use super::layers::LayerArgs;
 use super::output::note;
 use super::unused;
+use crate::geometry::{Instructions, Tracer};
 use crate::path::bidirectional::Weights;
 use crate::path::mis::Heuristic;
 use crate::plan::{Base, Direct, Plan, PlanOptions, Registry, StateSpace, Technique, UnknownTechnique};
@@ -38,6 +39,8 @@ pub struct SceneArgs {
     #[arg(long, value_name = "CHAINS", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub tile: Option<u32>,
     #[command(flatten)]
+    pub tracing: TracingArgs,
+    #[command(flatten)]
     pub strategies: StrategyArgs,
     #[command(flatten)]
     pub mutations: MutationArgs,
@@ -45,6 +48,31 @@ pub struct SceneArgs {
     pub chains: ChainArgs,
     #[command(flatten)]
     pub layers: LayerArgs,
+}
+
+/// How rays are traced; pictures do not depend on it.
+#[derive(Args, Clone, Debug, Default)]
+pub struct TracingArgs {
+    /// How rays are traced instead of as is fastest for the scene: `all` primitives for every ray, `one-by-one` through the tree, or
+    /// `interleaved[:RAYS]`, so many rays at a time; the picture does not depend on it
+    #[arg(long, value_name = "WAY")]
+    pub tracer: Option<Tracer>,
+    /// Which instructions they are traced with instead of the best that the machine has: plain, avx2 or avx512; the picture does
+    /// not depend on them
+    #[arg(long, value_name = "NAME")]
+    pub instructions: Option<Instructions>,
+}
+
+impl TracingArgs {
+    /// Lets the scene's rays be traced as asked for.
+    fn apply(&self, scene: &mut Scene) {
+        if self.tracer.is_some() || self.instructions.is_some() {
+            let chosen = scene.geometry.tracing();
+            let tracer = self.tracer.unwrap_or(chosen.tracer);
+            let instructions = self.instructions.unwrap_or(chosen.instructions);
+            scene.geometry.trace_with(tracer, instructions);
+        }
+    }
 }
 
 /// What `--technique` asks for.
@@ -155,7 +183,9 @@ impl SceneArgs {
             size: self.size,
             max_depth: self.max_depth,
         };
-        let scene = Arc::new(Scene::compile(&source.description, &flattened, overrides)?);
+        let mut scene = Scene::compile(&source.description, &flattened, overrides)?;
+        self.tracing.apply(&mut scene);
+        let scene = Arc::new(scene);
         let plan = self.plan(&scene, technique, mutations)?;
         let warnings: Vec<String> = flattened.warnings.iter().map(|warning| warning.plain()).collect();
         for warning in &warnings {

@@ -37,7 +37,7 @@ struct Report<'a> {
     /// Direct light, where it is rendered apart from all other.
     #[serde(skip_serializing_if = "Option::is_none")]
     direct: Option<DirectReport<'a>>,
-    tracer: &'static str,
+    tracer: &'a str,
     tracer_reason: &'a str,
     tree_bytes: u64,
     film_bytes: u64,
@@ -205,7 +205,7 @@ fn report<'a>(plan: &'a Plan, built: &'a Built, of_direct: Option<&'a Built>, pi
         chains: plan.chains.as_ref().map(chain_row),
         tile: tile_report(&plan.tile, built, plan.tiles(pixels)),
         direct,
-        tracer: plan.tracer,
+        tracer: &plan.tracer,
         tracer_reason: &plan.tracer_reason,
         tree_bytes: plan.tree_bytes,
         film_bytes: plan.film_bytes,

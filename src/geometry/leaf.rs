@@ -47,6 +47,16 @@ impl LeafPrimitive {
         })
     }
 
+    /// Whether it is a triangle.
+    pub fn is_triangle(&self) -> bool {
+        self.kind == Kind::Triangle
+    }
+
+    /// A triangle's corners.
+    pub const fn corners(&self) -> &CornerRows {
+        &self.corners
+    }
+
     /// A triangle's corner, or what stands there for other kinds.
     #[inline]
     fn column(&self, corner: usize) -> Vec3 {

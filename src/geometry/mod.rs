@@ -10,13 +10,12 @@ mod cylinder;
 mod disk;
 mod leaf;
 mod octahedral;
-mod pair;
 mod queue;
 mod sphere;
-mod stack;
 mod surface;
 mod texture;
 mod trace;
+mod tracer;
 mod tree;
 mod triangle;
 
@@ -28,6 +27,7 @@ pub use queue::{
 pub(crate) use surface::offset_distance;
 pub use surface::{Hit, Instance, InstanceShape, SurfacePoint, offset_origin};
 pub use texture::TexturePoint;
+pub use tracer::{Instructions, MissingInstructions, Tracer, Tracing, UnknownTracer};
 
 use glam::{Mat3, Vec2, Vec3};
 use leaf::LeafPrimitive;
@@ -57,12 +57,47 @@ pub struct Geometry {
     /// Light of every primitive, or [`NOT_EMITTING`], by global primitive number.
     pub(crate) lights: Vec<u32>,
     tree: Tree,
+    tracing: Tracing,
 }
 
 impl Geometry {
-    /// Builds the tree over all primitives. Primitives without area, or with a number that is not
-    /// finite, are left out of it: no ray meets them.
+    /// Builds the tree over all primitives, and chooses how rays are traced. Primitives without area, or with a number that is not
+    /// finite, are left out: no ray meets them.
     pub fn build_tree(&mut self) {
+        let leaves = self.leaves();
+        self.tree = Tree::build(&leaves);
+        let triangles = leaves.iter().filter(|leaf| leaf.is_triangle()).count();
+        let instructions = Instructions::best();
+        let tracer = Tracer::fastest(triangles, leaves.len() - triangles, self.tree.bytes(), instructions);
+        self.tree.keep_few((tracer == Tracer::All).then_some(&leaves));
+        self.tracing = Tracing {
+            tracer,
+            instructions,
+            asked_for: false,
+        };
+    }
+
+    /// Traces rays otherwise than [`build_tree`](Self::build_tree) chose; hits are the same. Instructions that the machine lacks are not used.
+    pub fn trace_with(&mut self, tracer: Tracer, instructions: Instructions) {
+        if (tracer == Tracer::All) != (self.tracing.tracer == Tracer::All) {
+            let leaves = (tracer == Tracer::All).then(|| self.leaves());
+            self.tree.keep_few(leaves.as_deref());
+        }
+        self.tracing = Tracing {
+            tracer,
+            instructions,
+            asked_for: true,
+        };
+    }
+
+    /// How rays are traced.
+    #[must_use]
+    pub const fn tracing(&self) -> Tracing {
+        self.tracing
+    }
+
+    /// All primitives that a ray can meet.
+    fn leaves(&self) -> Vec<LeafPrimitive> {
         let mut leaves = Vec::with_capacity(self.materials.len());
         for (number, instance) in self.instances.iter().enumerate() {
             for primitive in 0..instance.primitive_count() {
@@ -70,7 +105,7 @@ impl Geometry {
                 leaves.extend(leaf.filter(LeafPrimitive::can_be_hit));
             }
         }
-        self.tree = Tree::build(leaves);
+        leaves
     }
 
     /// Number of primitives, those without area included.
@@ -89,6 +124,20 @@ impl Geometry {
     #[must_use]
     pub fn tree_bytes(&self) -> usize {
         self.tree.bytes()
+    }
+
+    /// A triangle's corners, world space; `None` if there is no such triangle.
+    #[must_use]
+    pub fn triangle(&self, instance: u32, primitive: u32) -> Option<[Vec3; 3]> {
+        self.corners(self.instances.get(instance as usize)?, primitive)
+    }
+
+    /// The corners of all triangles, world space, instance by instance.
+    pub fn triangles(&self) -> impl Iterator<Item = [Vec3; 3]> {
+        let instances = self.instances.iter();
+        instances.flat_map(|instance| {
+            (0..instance.primitive_count()).filter_map(|primitive| self.corners(instance, primitive))
+        })
     }
 
     /// The box around everything, or `None` for an empty scene.

@@ -1,80 +1,81 @@
 //! Tracing queues: closest hits of rays, transmittance of segments.
 
 use super::Geometry;
-use super::queue::{HitColumns, NO_HIT, RayColumns, SegmentColumns, SegmentTransmittance};
-use super::stack::Stack;
-use super::tree::Walk;
-use super::triangle::RayFrame;
+use super::queue::{HitColumns, RayColumns, SegmentColumns, SegmentTransmittance};
+use super::tree::{Blocked, Nearest, Queue};
 use crate::color::Rgb;
 use crate::table::Rows;
-use glam::DVec2;
+use glam::{DVec3, Vec3};
 
-/// A hit as it is compared: the least (distance, instance, primitive) wins. In f64: of two surfaces that lie closer than
-/// f32 tells apart at that distance, the nearer one is still seen.
-struct Nearest {
-    distance: f64,
-    instance: u32,
-    primitive: u32,
-    uv: DVec2,
+/// Rays, and their hits.
+struct Rays<'a> {
+    rays: RayColumns<'a>,
+    hits: HitColumns<'a>,
+}
+
+impl Queue for Rays<'_> {
+    type Query = Nearest;
+
+    #[inline(always)]
+    fn len(&self) -> usize {
+        self.rays.len
+    }
+
+    #[inline(always)]
+    fn line(&self, number: usize) -> (Vec3, DVec3) {
+        (self.rays.origin.at(number), self.rays.direction.at(number).as_dvec3())
+    }
+
+    #[inline(always)]
+    fn answer(&mut self, number: usize, nearest: &Nearest) {
+        self.hits.distance.put(number, nearest.distance as f32);
+        self.hits.instance.put(number, nearest.instance);
+        self.hits.primitive.put(number, nearest.primitive);
+        self.hits.uv.put(number, nearest.uv);
+    }
+}
+
+/// Segments, and how much light they let through.
+struct Segments<'a> {
+    segments: SegmentColumns<'a>,
+    transmittance: &'a mut [SegmentTransmittance],
+}
+
+impl Queue for Segments<'_> {
+    type Query = Blocked;
+
+    #[inline(always)]
+    fn len(&self) -> usize {
+        self.segments.len
+    }
+
+    /// In f64, so that a segment to a far target ends where the target is.
+    #[inline(always)]
+    fn line(&self, number: usize) -> (Vec3, DVec3) {
+        let origin = self.segments.origin.at(number);
+        (origin, self.segments.target.at(number).as_dvec3() - origin.as_dvec3())
+    }
+
+    #[inline(always)]
+    fn answer(&mut self, number: usize, blocked: &Blocked) {
+        let passing = if blocked.0 { Rgb::BLACK } else { Rgb::ONE };
+        self.transmittance.put(number, passing);
+    }
 }
 
 impl Geometry {
     /// Writes the closest hit of every ray: the lexicographic minimum of (distance, instance, primitive).
     pub fn closest_hits(&self, rays: RayColumns<'_>, hits: HitColumns<'_>) {
-        let mut stack = Stack::default();
-        for i in 0..rays.len {
-            let ray = RayFrame::new(rays.origin.at(i), rays.direction.at(i).as_dvec3());
-            let nearest = self.closest_hit(&ray, &mut stack);
-            hits.distance.put(i, nearest.distance as f32);
-            hits.instance.put(i, nearest.instance);
-            hits.primitive.put(i, nearest.primitive);
-            hits.uv.put(i, nearest.uv);
-        }
+        self.tree.answer(self.tracing, &mut Rays { rays, hits });
     }
 
     /// Writes the share of light that passes along every segment, ends excluded. Every surface is opaque so far, so it
     /// is one or zero.
     pub fn transmittances(&self, segments: SegmentColumns<'_>, transmittance: &mut [SegmentTransmittance]) {
-        let mut stack = Stack::default();
-        for i in 0..segments.len {
-            let origin = segments.origin.at(i);
-            // In f64, so that a segment to a far target ends where the target is.
-            let span = segments.target.at(i).as_dvec3() - origin.as_dvec3();
-            let blocked = self.blocked(&RayFrame::new(origin, span), &mut stack);
-            transmittance.put(i, if blocked { Rgb::BLACK } else { Rgb::ONE });
-        }
-    }
-
-    #[inline]
-    fn closest_hit(&self, ray: &RayFrame, stack: &mut Stack) -> Nearest {
-        let mut nearest = Nearest {
-            distance: f64::INFINITY,
-            instance: NO_HIT,
-            primitive: NO_HIT,
-            uv: DVec2::ZERO,
+        let mut queue = Segments {
+            segments,
+            transmittance,
         };
-        self.tree.walk(ray, stack, f32::INFINITY, |leaf| {
-            for primitive in leaf {
-                let Some((t, uv)) = primitive.hit(ray) else { continue };
-                let key = (t, primitive.instance, primitive.primitive);
-                if key < (nearest.distance, nearest.instance, nearest.primitive) {
-                    (nearest.distance, nearest.instance, nearest.primitive) = key;
-                    nearest.uv = uv;
-                }
-            }
-            // Rounded up: a box no farther than the hit is looked into.
-            Walk::Within((nearest.distance as f32).next_up())
-        });
-        nearest
-    }
-
-    #[inline]
-    fn blocked(&self, ray: &RayFrame, stack: &mut Stack) -> bool {
-        let mut blocked = false;
-        self.tree.walk(ray, stack, 1.0, |leaf| {
-            blocked = leaf.iter().any(|primitive| primitive.blocks(ray));
-            if blocked { Walk::Stop } else { Walk::Within(1.0) }
-        });
-        blocked
+        self.tree.answer(self.tracing, &mut queue);
     }
 }

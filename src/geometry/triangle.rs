@@ -14,11 +14,15 @@ pub struct RayFrame {
     /// Direction.
     pub direction: DVec3,
     /// Axes in the order that makes the dominant one the last.
-    axes: [usize; 3],
+    pub(super) axes: [u8; 3],
     /// The origin in that order.
-    ordered_origin: [f64; 3],
-    shear: [f64; 3],
+    pub(super) ordered_origin: [f64; 3],
+    pub(super) shear: [f64; 3],
 }
+
+/// Axes in the order that makes the dominant one the last, by that and by whether the direction goes backwards along it: then the
+/// others change places, which keeps the winding.
+const AXES: [[[u8; 3]; 2]; 3] = [[[1, 2, 0], [2, 1, 0]], [[2, 0, 1], [0, 2, 1]], [[0, 1, 2], [1, 0, 2]]];
 
 /// A triangle's corners by axis, `[axis][corner]`: a ray picks whole rows in its own order of axes.
 pub type CornerRows = [[f32; 3]; 3];
@@ -39,27 +43,19 @@ impl RayFrame {
     #[inline]
     #[must_use]
     pub fn new(origin: Vec3, direction: DVec3) -> Self {
-        let d = direction.to_array();
-        let size = [d[0].abs(), d[1].abs(), d[2].abs()];
-        let z = if size[0] > size[1] && size[0] > size[2] {
-            0
-        } else if size[1] > size[2] {
-            1
-        } else {
-            2
-        };
-        let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
-        // Keeps the winding when the dominant axis points backwards.
-        if d[z] < 0.0 {
-            std::mem::swap(&mut x, &mut y);
-        }
+        let (d, o) = (direction.to_array(), origin.as_dvec3().to_array());
+        let size = d.map(f64::abs);
+        // Without branches: which axis it is is anybody's guess.
+        let is_first = (size[0] > size[1]) & (size[0] > size[2]);
+        let dominant = usize::from(!is_first) * (2 - usize::from(size[1] > size[2]));
+        let axes = AXES[dominant][usize::from(d[dominant] < 0.0)];
+        let [x, y, z] = axes.map(usize::from);
         let shear = [d[x] / d[z], d[y] / d[z], 1.0 / d[z]];
-        let origin = origin.as_dvec3();
         Self {
-            origin,
+            origin: DVec3::from_array(o),
             direction,
-            axes: [x, y, z],
-            ordered_origin: [origin[x], origin[y], origin[z]],
+            axes,
+            ordered_origin: [o[x], o[y], o[z]],
             shear,
         }
     }
@@ -69,7 +65,7 @@ impl RayFrame {
     #[inline]
     #[must_use]
     pub fn cross(&self, corners: &CornerRows) -> Option<Crossing> {
-        let row = |i: usize| corners[self.axes[i]].map(|x| f64::from(x) - self.ordered_origin[i]);
+        let row = |i: usize| corners[usize::from(self.axes[i])].map(|x| f64::from(x) - self.ordered_origin[i]);
         let (x, y, z) = (row(0), row(1), row(2));
         let [ax, bx, cx] = [0, 1, 2].map(|corner| x[corner] - self.shear[0] * z[corner]);
         let [ay, by, cy] = [0, 1, 2].map(|corner| y[corner] - self.shear[1] * z[corner]);

@@ -36,6 +36,7 @@ pub use technique::{Base, Technique, UnknownTechnique};
 pub use tile::{Subpaths, TilePlan};
 
 use crate::film::{Film, GroupFilm};
+use crate::geometry::Tracing;
 use crate::layer::{LayerFilms, Layers};
 use crate::path::bidirectional::{Strategies, Weights};
 use crate::path::mis::Heuristic;
@@ -110,7 +111,7 @@ pub struct Plan {
     /// Films that steps take turns among, where independent samples bring light to many pixels; otherwise 0.
     pub splat_films: u32,
     /// How rays are traced.
-    pub tracer: &'static str,
+    pub tracer: String,
     /// Why they are traced so.
     pub tracer_reason: String,
     /// Memory of the tree and its primitives, in bytes.
@@ -285,11 +286,20 @@ impl Plan {
             strategies,
             layers: options.layers.clone(),
             splat_films,
-            tracer: "binary tree, one ray after another",
-            tracer_reason: format!(
-                "the only tracer so far; {} primitives",
-                scene.geometry.primitive_count()
-            ),
+            tracer: {
+                let Tracing {
+                    tracer, instructions, ..
+                } = scene.geometry.tracing();
+                format!("{tracer} by {instructions}")
+            },
+            tracer_reason: {
+                let why = if scene.geometry.tracing().asked_for {
+                    "as asked for"
+                } else {
+                    "the fastest for this scene and machine"
+                };
+                format!("{why}; {} primitives", scene.geometry.primitive_count())
+            },
             tree_bytes: scene.geometry.tree_bytes() as u64,
             film_bytes,
         })

@@ -15,6 +15,7 @@ mod scan;
 mod shapes;
 mod sheets;
 mod ties;
+mod tracers;
 mod tree;
 mod watertight;
 mod world;

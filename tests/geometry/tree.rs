@@ -2,7 +2,7 @@
 
 use super::dice::Dice;
 use super::scan::{Scan, Shape, Verdict};
-use super::world::{Line, Triangle, World, closest, free};
+use super::world::{Line, Triangle, World, closest_and_free_by_all_ways};
 use chainlight::geometry::Geometry;
 use glam::Vec3;
 
@@ -45,7 +45,8 @@ pub fn compare(instances: Vec<Vec<Shape>>, margin: f64, rays: &[Line], segments:
         margin,
     };
     let mut judged = 0;
-    for (&ray, found) in rays.iter().zip(closest(&geometry, rays)) {
+    let (found, passed) = closest_and_free_by_all_ways(&geometry, rays, segments);
+    for (&ray, found) in rays.iter().zip(found) {
         match scan.closest(ray) {
             Verdict::Unsure => continue,
             Verdict::Nothing => assert_eq!(found.hit(), None, "{ray:?}"),
@@ -59,7 +60,7 @@ pub fn compare(instances: Vec<Vec<Shape>>, margin: f64, rays: &[Line], segments:
         }
         judged += 1;
     }
-    for (&segment, free) in segments.iter().zip(free(&geometry, segments)) {
+    for (&segment, free) in segments.iter().zip(passed) {
         if let Some(expected) = scan.free(segment) {
             assert_eq!(free, expected, "{segment:?}");
             judged += 1;

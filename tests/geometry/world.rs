@@ -2,8 +2,8 @@
 
 use chainlight::color::Rgb;
 use chainlight::geometry::{
-    Geometry, Hit, HitColumns, HitDistance, HitInstance, HitPrimitive, HitUv, NO_HIT, RayColumns, RayDirection,
-    RayOrigin, SegmentColumns, SegmentTarget, SegmentTransmittance,
+    Geometry, Hit, HitColumns, HitDistance, HitInstance, HitPrimitive, HitUv, Instructions, NO_HIT, RayColumns,
+    RayDirection, RayOrigin, SegmentColumns, SegmentTarget, SegmentTransmittance, Tracer,
 };
 use chainlight::scene::{self, Emission, Flattened, Format, Instance, Mesh, Scene, SceneOverrides, parse_scene};
 use chainlight::table::{Column, Rows, lane_groups};
@@ -151,6 +151,12 @@ impl Found {
         })
     }
 
+    /// All of it, to the last bit.
+    pub fn bits(&self) -> (u32, u32, u32, [u64; 2]) {
+        let uv = self.uv.to_array().map(f64::to_bits);
+        (self.distance.to_bits(), self.instance, self.primitive, uv)
+    }
+
     pub fn name(&self) -> (u32, u32) {
         (self.instance, self.primitive)
     }
@@ -196,6 +202,43 @@ pub fn closest(geometry: &Geometry, rays: &[Line]) -> Vec<Found> {
             uv: uv.at(i),
         })
         .collect()
+}
+
+/// All ways to trace on this machine. Those without a tree come first.
+pub fn ways() -> Vec<(Tracer, Instructions)> {
+    let here = || {
+        Instructions::ALL
+            .into_iter()
+            .filter(|instructions| instructions.are_here())
+    };
+    let tracers = [
+        Tracer::All,
+        Tracer::OneByOne,
+        Tracer::Interleaved(1),
+        Tracer::Interleaved(7),
+        Tracer::Interleaved(64),
+    ];
+    tracers
+        .into_iter()
+        .flat_map(|tracer| here().map(move |instructions| (tracer, instructions)))
+        .collect()
+}
+
+/// The closest hits of rays, and whether segments are free, which every way to trace must agree on to the last bit.
+pub fn closest_and_free_by_all_ways(geometry: &Geometry, rays: &[Line], segments: &[Line]) -> (Vec<Found>, Vec<bool>) {
+    let found = closest(geometry, rays);
+    let passed = free(geometry, segments);
+    let mut other = geometry.clone();
+    for (tracer, instructions) in ways() {
+        other.trace_with(tracer, instructions);
+        for ((a, b), ray) in found.iter().zip(closest(&other, rays)).zip(rays) {
+            assert_eq!(a.bits(), b.bits(), "{tracer:?} {instructions:?} {ray:?}: {a:?} {b:?}");
+        }
+        for ((a, b), segment) in passed.iter().zip(free(&other, segments)).zip(segments) {
+            assert_eq!(*a, b, "{tracer:?} {instructions:?} {segment:?}");
+        }
+    }
+    (found, passed)
 }
 
 /// Whether segments are free.
