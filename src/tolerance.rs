@@ -36,6 +36,11 @@ pub const BOX_EXIT_SLACK: f32 = 1.0 + 8.0 * F32_ROUNDING;
 /// `coincident_triangles_return_the_lowest_primitive`.
 pub const CULL_SLACK: f32 = 1.0 + 6.0 * F32_ROUNDING;
 
+/// How far off distances of triangles may be, relative to the coordinates that they are computed from: 2⁻⁴⁸, some thirty roundings. Boxes no
+/// farther than that behind the nearest hit are looked into too: of hits very near the origin, a rounding of the coordinates is a large
+/// part. Guarded by `few_triangles_are_found_as_by_a_scan`.
+pub const DISTANCE_SLACK: f64 = 1.0 / (1u64 << 48) as f64;
+
 /// The smallest roughness of microfacets; scenes that ask for less are refused and pointed at the smooth material, with whose
 /// albedo this one agrees to a thousandth, so that nothing jumps. Directions are rounded to 2⁻²⁴, which moves a half vector by
 /// 3e-8 over the cosine of incidence: a thousandth of this lobe's width, but all of it where light grazes at cosines below

@@ -1,5 +1,6 @@
 //! Ray against triangle, watertight.
 
+use crate::tolerance::DISTANCE_SLACK;
 use glam::{DVec3, Vec3};
 
 /// A ray prepared for many triangles: its dominant axis becomes z, and a shear maps its direction onto z
@@ -58,6 +59,14 @@ impl RayFrame {
             ordered_origin: [o[x], o[y], o[z]],
             shear,
         }
+    }
+
+    /// How far off the distance of a triangle may be, with coordinates up to `reach`, by the roundings of [`cross`](Self::cross): some units
+    /// of f64 in proportion to the coordinates, seen from the origin. More where it is seen edge-on.
+    #[inline]
+    #[must_use]
+    pub fn distance_slack(&self, reach: f64) -> f64 {
+        DISTANCE_SLACK * (reach + self.origin.abs().max_element()) * self.shear[2].abs()
     }
 
     /// Where the ray's line crosses a triangle, edges included; `None` if it does not, if the triangle is seen edge-on,

@@ -6,6 +6,7 @@
 mod any_numbers;
 mod degenerate;
 mod dice;
+mod hard;
 mod leaving;
 mod lights;
 mod points;

@@ -118,8 +118,12 @@ fn meet_triangle(corners: Triangle, origin: Vec3, direction: DVec3, margin: f64)
         if sum == 0.0 {
             return Meeting::Never;
         }
-        let normal = ab.cross(-ca);
-        return Meeting::At(vec![normal.dot(a) / sum]);
+        let height = ab.cross(-ca).dot(a);
+        // So near the plane, how far it is along the line is anybody's guess.
+        if height.abs() < margin * reach * longest * longest {
+            return Meeting::Unsure;
+        }
+        return Meeting::At(vec![height / sum]);
     }
     let surely_above = volumes.iter().any(|&v| v > doubt);
     let surely_below = volumes.iter().any(|&v| v < -doubt);

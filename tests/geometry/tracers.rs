@@ -1,7 +1,8 @@
 //! Every way to trace gives the same answers.
 
 use super::dice::Dice;
-use super::world::{Line, Triangle, World, closest, closest_and_free_by_all_ways, ways};
+use super::world::{Line, Triangle, World, closest, closest_and_free_by_all_ways};
+use crate::support::ways::ways;
 use chainlight::geometry::{Instructions, Tracer};
 use chainlight::math;
 use glam::Vec3;

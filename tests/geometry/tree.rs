@@ -7,7 +7,7 @@ use chainlight::geometry::Geometry;
 use glam::Vec3;
 
 /// Instances in turn: a mesh of some triangles, or one other shape.
-fn build(instances: &[Vec<Shape>]) -> Geometry {
+pub fn world(instances: &[Vec<Shape>]) -> World {
     let mut world = World::default();
     for shapes in instances {
         let triangle = |shape: &Shape| match *shape {
@@ -21,7 +21,7 @@ fn build(instances: &[Vec<Shape>]) -> Geometry {
             _ => world.mesh(&shapes.iter().filter_map(triangle).collect::<Vec<Triangle>>()),
         };
     }
-    world.compile().geometry
+    world
 }
 
 /// `count` primitives: every eighth instance is a sphere, the others are meshes of a few triangles.
@@ -39,13 +39,18 @@ fn group(count: usize, dice: &mut Dice, mut next: impl FnMut(&mut Dice, bool) ->
 
 /// Compares geometry and scan; returns how many rays and segments were judged.
 pub fn compare(instances: Vec<Vec<Shape>>, margin: f64, rays: &[Line], segments: &[Line]) -> usize {
-    let geometry = build(&instances);
+    let geometry = world(&instances).compile().geometry;
     let scan = Scan {
         shapes: instances,
         margin,
     };
+    compare_with(&geometry, &scan, rays, segments)
+}
+
+/// Compares a geometry and a scan; returns how many rays and segments were judged.
+pub fn compare_with(geometry: &Geometry, scan: &Scan, rays: &[Line], segments: &[Line]) -> usize {
     let mut judged = 0;
-    let (found, passed) = closest_and_free_by_all_ways(&geometry, rays, segments);
+    let (found, passed) = closest_and_free_by_all_ways(geometry, rays, segments);
     for (&ray, found) in rays.iter().zip(found) {
         match scan.closest(ray) {
             Verdict::Unsure => continue,

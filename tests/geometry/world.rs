@@ -1,9 +1,10 @@
 //! Compiled scenes from lists of shapes, and their queues as plain functions.
 
+use crate::support::ways::ways;
 use chainlight::color::Rgb;
 use chainlight::geometry::{
-    Geometry, Hit, HitColumns, HitDistance, HitInstance, HitPrimitive, HitUv, Instructions, NO_HIT, RayColumns,
-    RayDirection, RayOrigin, SegmentColumns, SegmentTarget, SegmentTransmittance, Tracer,
+    Geometry, Hit, HitColumns, HitDistance, HitInstance, HitPrimitive, HitUv, NO_HIT, RayColumns, RayDirection,
+    RayOrigin, SegmentColumns, SegmentTarget, SegmentTransmittance,
 };
 use chainlight::scene::{self, Emission, Flattened, Format, Instance, Mesh, Scene, SceneOverrides, parse_scene};
 use chainlight::table::{Column, Rows, lane_groups};
@@ -201,26 +202,6 @@ pub fn closest(geometry: &Geometry, rays: &[Line]) -> Vec<Found> {
             primitive: primitive.at(i),
             uv: uv.at(i),
         })
-        .collect()
-}
-
-/// All ways to trace on this machine. Those without a tree come first.
-pub fn ways() -> Vec<(Tracer, Instructions)> {
-    let here = || {
-        Instructions::ALL
-            .into_iter()
-            .filter(|instructions| instructions.are_here())
-    };
-    let tracers = [
-        Tracer::All,
-        Tracer::OneByOne,
-        Tracer::Interleaved(1),
-        Tracer::Interleaved(7),
-        Tracer::Interleaved(64),
-    ];
-    tracers
-        .into_iter()
-        .flat_map(|tracer| here().map(move |instructions| (tracer, instructions)))
         .collect()
 }
 

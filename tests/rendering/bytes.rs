@@ -2,6 +2,7 @@
 
 use super::{shipped, start};
 use crate::support::render::picture_bytes;
+use crate::support::ways::ways;
 use chainlight::film::{PictureMetadata, encode_exr};
 use chainlight::plan::Technique;
 use chainlight::render::{Budget, Rendering, Stop, drive};
@@ -25,15 +26,27 @@ fn bytes(scene: &Arc<Scene>, seed: u64, threads: usize, tile: Option<u32>) -> Ve
     picture_bytes(&render.film.develop())
 }
 
-#[test]
-fn golden_hash() {
-    let scene = shipped("cornell-glass.ron", SIZE);
-    let hash = Sha256::digest(bytes(&scene, 1, 1, None));
-    let hex = hash.iter().fold(String::new(), |mut hex, byte| {
+fn hash(scene: &Arc<Scene>) -> String {
+    let hash = Sha256::digest(bytes(scene, 1, 1, None));
+    hash.iter().fold(String::new(), |mut hex, byte| {
         let _ = write!(hex, "{byte:02x}");
         hex
-    });
-    assert_eq!(hex, GOLDEN);
+    })
+}
+
+#[test]
+fn golden_hash() {
+    assert_eq!(hash(&shipped("cornell-glass.ron", SIZE)), GOLDEN);
+}
+
+/// With a tree and without, rays one by one and interleaved, by all instructions that the machine has.
+#[test]
+fn no_way_to_trace_rays_shows() {
+    for (tracer, instructions) in ways() {
+        let mut scene = Scene::clone(&shipped("cornell-glass.ron", SIZE));
+        scene.geometry.trace_with(tracer, instructions);
+        assert_eq!(hash(&Arc::new(scene)), GOLDEN, "{tracer} {instructions}");
+    }
 }
 
 #[test]

@@ -9,3 +9,4 @@ pub mod render;
 pub mod rough;
 pub mod scenes;
 pub mod verdict;
+pub mod ways;

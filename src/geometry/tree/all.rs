@@ -26,6 +26,8 @@ pub struct Few {
     frame: Frame,
     /// What is no triangle.
     others: Vec<Shape>,
+    /// The largest coordinate.
+    reach: f64,
 }
 
 impl Few {
@@ -46,6 +48,7 @@ impl Few {
             triangles: triangles.map(shape).collect(),
             others: others.map(shape).collect(),
             frame,
+            reach: f64::from(low.abs().max(high.abs()).max_element()),
         }
     }
 
@@ -69,6 +72,7 @@ impl<J: Queue> Task for All<'_, J> {
         }
         let (mut bundle, mut sifted) = (Bundle::EMPTY, Sifted::NOTHING);
         let mut asked = Asked::<J::Query> {
+            reach: few.reach,
             frames: [queue.ray(0); BUNDLE],
             prepared: 0,
             queries: [J::Query::new(); BUNDLE],
@@ -100,7 +104,7 @@ impl<J: Queue> Task for All<'_, J> {
                         let place = todo.trailing_zeros() as usize & (BUNDLE - 1);
                         todo &= todo - 1;
                         asked.prepare(queue, first, place);
-                        let ray = Prepared::new(asked.frames[place]);
+                        let ray = Prepared::new(asked.frames[place], few.reach);
                         asked.queries[place].shape(triangle, &ray);
                     }
                 }
@@ -108,7 +112,7 @@ impl<J: Queue> Task for All<'_, J> {
             for place in 0..count {
                 if open >> place & 1 != 0 && !few.others.is_empty() {
                     asked.prepare(queue, first, place);
-                    let ray = Prepared::new(asked.frames[place]);
+                    let ray = Prepared::new(asked.frames[place], few.reach);
                     for shape in &few.others {
                         asked.queries[place].shape(shape, &ray);
                     }
@@ -124,6 +128,8 @@ impl<J: Queue> Task for All<'_, J> {
 
 /// What the rays of a bundle ask.
 struct Asked<Q> {
+    /// The largest coordinate of what there is.
+    reach: f64,
     frames: [RayFrame; BUNDLE],
     /// A bit for each frame that is this bundle's.
     prepared: u32,
@@ -175,11 +181,15 @@ impl<Q: Query> Asked<Q> {
             for (pair, &number) in numbers.iter().enumerate() {
                 let query = &mut self.queries[from + pair];
                 let t = crossings.t[pair];
-                // Who crosses a triangle for certain enters its box too.
-                if mask >> pair & 1 != 0 && query.counts(t) {
-                    let triangle = &triangles[number].primitive;
+                if mask >> pair & 1 == 0 || !query.counts(t) {
+                    continue;
+                }
+                // Who crosses a triangle for certain enters its box too, but not always before the distance that rounding leaves of a near hit.
+                let ray = Prepared::new(self.frames[from + pair], self.reach);
+                let Shape { primitive, bounds } = &triangles[number];
+                if ray.boxes.enters(*bounds, query.box_limit(t, &ray)) {
                     let uv = [crossings.u[pair], crossings.v[pair]].into();
-                    query.take(t, triangle.instance, triangle.primitive, uv);
+                    query.take(t, primitive.instance, primitive.primitive, uv, &ray);
                 }
             }
         }

@@ -351,3 +351,6 @@ fn up_to_the_target<L: Lanes>(lanes: L, facets: &[Facet], bundle: &Bundle, part:
     }
     sifted.blocked |= blocked << shift;
 }
+
+#[cfg(test)]
+mod tests;

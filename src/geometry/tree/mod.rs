@@ -56,6 +56,8 @@ pub struct Tree {
     stack_len: usize,
     /// The box around everything.
     bounds: Option<(Vec3, Vec3)>,
+    /// Its largest coordinate.
+    reach: f64,
 }
 
 fn bounds_of(primitives: &[LeafPrimitive]) -> Option<(Vec3, Vec3)> {
@@ -69,9 +71,11 @@ impl Tree {
     /// Builds a tree. The order of `primitives` shapes it, threads do not.
     pub fn build(primitives: &[LeafPrimitive]) -> Self {
         let parts = build::build(primitives);
+        let bounds = bounds_of(primitives);
         Self {
             stack_len: parts.stack_len(),
-            bounds: bounds_of(primitives),
+            bounds,
+            reach: bounds.map_or(0.0, |(low, high)| f64::from(low.abs().max(high.abs()).max_element())),
             nodes: parts.nodes,
             blocks: parts.blocks,
             shapes: parts.shapes,

@@ -28,9 +28,9 @@ pub trait Query: Copy {
     /// Whether a hit at such a distance matters.
     fn counts(&self, distance: f64) -> bool;
     /// Takes a hit that matters.
-    fn take(&mut self, distance: f64, instance: u32, primitive: u32, uv: DVec2);
-    /// How far the box may be of a primitive that is hit at such a distance.
-    fn box_limit(&self, distance: f64) -> f32;
+    fn take(&mut self, distance: f64, instance: u32, primitive: u32, uv: DVec2, ray: &Prepared);
+    /// How far the box may be of a primitive that the ray hits at such a distance.
+    fn box_limit(&self, distance: f64, ray: &Prepared) -> f32;
     /// Looks at one primitive.
     fn shape(&mut self, shape: &Shape, ray: &Prepared);
     /// Learns that something lies before the target.
@@ -49,14 +49,14 @@ pub struct Nearest {
     pub primitive: u32,
     /// Coordinates on the primitive.
     pub uv: DVec2,
-    /// The distance in f32, rounded up, so that a box no farther than the hit is looked into.
+    /// How far boxes may be that are still looked into.
     limit: f32,
 }
 
-/// A distance in f32, rounded up.
+/// A distance in f32, rounded up, and farther by what it may be off: so that a box that may be no farther than the hit is looked into.
 #[inline(always)]
-fn rounded_up(distance: f64) -> f32 {
-    (distance as f32).next_up()
+fn rounded_up(distance: f64, ray: &Prepared) -> f32 {
+    ((distance + ray.slack) as f32).next_up()
 }
 
 impl Query for Nearest {
@@ -93,9 +93,9 @@ impl Query for Nearest {
             let lane = (mask.trailing_zeros() & 3) as usize;
             mask &= mask - 1;
             let t = crossings.t[lane];
-            if self.counts(t) && ray.boxes.enters(block.bounds(lane), self.box_limit(t)) {
+            if self.counts(t) && ray.boxes.enters(block.bounds(lane), self.box_limit(t, ray)) {
                 let uv = DVec2::new(crossings.u[lane], crossings.v[lane]);
-                self.take(t, block.instances[lane], block.primitives[lane], uv);
+                self.take(t, block.instances[lane], block.primitives[lane], uv, ray);
             }
         }
     }
@@ -103,9 +103,9 @@ impl Query for Nearest {
     #[inline(always)]
     fn shape(&mut self, shape: &Shape, ray: &Prepared) {
         if let Some((t, uv)) = shape.primitive.hit(&ray.frame)
-            && ray.boxes.enters(shape.bounds, self.box_limit(t))
+            && ray.boxes.enters(shape.bounds, self.box_limit(t, ray))
         {
-            self.take(t, shape.primitive.instance, shape.primitive.primitive, uv);
+            self.take(t, shape.primitive.instance, shape.primitive.primitive, uv, ray);
         }
     }
 
@@ -115,21 +115,21 @@ impl Query for Nearest {
     }
 
     #[inline(always)]
-    fn take(&mut self, distance: f64, instance: u32, primitive: u32, uv: DVec2) {
+    fn take(&mut self, distance: f64, instance: u32, primitive: u32, uv: DVec2, ray: &Prepared) {
         if (distance, instance, primitive) < (self.distance, self.instance, self.primitive) {
             *self = Self {
                 distance,
                 instance,
                 primitive,
                 uv,
-                limit: rounded_up(distance),
+                limit: rounded_up(distance, ray),
             };
         }
     }
 
     #[inline(always)]
-    fn box_limit(&self, distance: f64) -> f32 {
-        rounded_up(distance)
+    fn box_limit(&self, distance: f64, ray: &Prepared) -> f32 {
+        rounded_up(distance, ray)
     }
 
     #[inline(always)]
@@ -179,12 +179,12 @@ impl Query for Blocked {
     }
 
     #[inline(always)]
-    fn take(&mut self, _: f64, _: u32, _: u32, _: DVec2) {
+    fn take(&mut self, _: f64, _: u32, _: u32, _: DVec2, _: &Prepared) {
         self.0 = true;
     }
 
     #[inline(always)]
-    fn box_limit(&self, _: f64) -> f32 {
+    fn box_limit(&self, _: f64, _: &Prepared) -> f32 {
         self.limit()
     }
 

@@ -85,7 +85,7 @@ impl<J: Queue> Journey<'_, J> {
         let room = self.tree.stack_len;
         let stack = Stack::empty(&mut self.memory[place * room..(place + 1) * room]);
         self.travellers[place] = Traveller {
-            ray: Prepared::new(self.queue.ray(self.started)),
+            ray: Prepared::new(self.queue.ray(self.started), self.tree.reach),
             query: J::Query::new(),
             next: Entry::ROOT.reference().number() as u32,
             left: stack.len() as u32,
@@ -160,7 +160,7 @@ impl<J: Queue> Task for Interleaved<'_, J> {
             tree,
             travellers: vec![
                 Traveller {
-                    ray: Prepared::new(queue.ray(0)),
+                    ray: Prepared::new(queue.ray(0), tree.reach),
                     query: J::Query::new(),
                     next: 0,
                     left: 0,

@@ -34,13 +34,16 @@ pub trait Queue {
 pub struct Prepared {
     pub frame: RayFrame,
     pub boxes: BoxRay,
+    /// How far off distances of triangles may be that are not seen edge-on, whatever they are.
+    pub slack: f64,
 }
 
 impl Prepared {
-    /// Prepares a ray.
+    /// Prepares a ray for what has coordinates up to `reach`.
     #[inline(always)]
-    pub fn new(frame: RayFrame) -> Self {
+    pub fn new(frame: RayFrame, reach: f64) -> Self {
         Self {
+            slack: frame.distance_slack(reach),
             boxes: BoxRay::new(&frame),
             frame,
         }
@@ -76,7 +79,7 @@ impl<J: Queue> Task for OneByOne<'_, J> {
             &mut more[..]
         };
         for number in 0..queue.len() {
-            let ray = Prepared::new(queue.ray(number));
+            let ray = Prepared::new(queue.ray(number), tree.reach);
             let mut query = J::Query::new();
             let mut stack = Stack::empty(memory);
             let mut next = Entry::ROOT;
